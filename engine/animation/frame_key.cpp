@@ -1,0 +1,1 @@
+#include "engine/animation/frame_key.h"

@@ -1,0 +1,133 @@
+// What a fractal method is: it takes the coarse shape of one frame and makes fine elements of it, in
+// two forms that give the same vertices bit for bit:
+// - streamed, root by root, for rendering: nothing is kept, memory follows depth, parts that cannot
+//   touch the picture are never made;
+// - welded, for files and checks: shared vertices once, each with its 128-bit identity.
+//
+// A prepared object is immutable and may be used by any number of threads. A method is one file and
+// one line in registry.cpp; parser, presets, docs, tests, benches and the exactness gate loop over it.
+//
+// Invariants
+// M1 A new vertex depends on the edge it halves and the settings alone: no neighbour, order, thread,
+//    frame number or machine (S3, S4, S24).
+// M2 Everything that Stream(root) emits lies inside Bound(root).
+// M3 Streamed and welded vertices have equal bits, at every SIMD level.
+// M4 Stream always ends: no edge passes settings.max_level.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/random.h"
+#include "engine/base/result.h"
+#include "engine/fractal/settings.h"
+#include "engine/geometry/mesh.h"
+
+namespace fjord {
+
+// The coarse shape of one object in one frame. Triangles or a curve, never both.
+struct CoarseShape {
+  std::vector<Vec3> now;             // object space
+  std::vector<Vec3> rest;            // as many as now
+  std::vector<Triangle> triangles;   // counter-clockwise from outside, smallest index first
+  bool curve = false;                // now, in order, is a polyline
+  bool closed = false;
+  std::vector<Rgb> colors;           // none, or one a vertex
+};
+
+struct Ball {
+  Vec3 center{0};
+  double radius = 0;
+};
+
+// 64 bytes, the unit of the streaming kernels.
+struct StreamVertex {
+  Vec3 position;
+  Vec3 direction;        // unit normal that its children's directions are made from
+  uint64_t id;           // Identity::lo
+  float stretch;
+  float eye_distance2;   // squared distance to Fineness::eye in the rest pose
+};
+static_assert(sizeof(StreamVertex) == 64);
+
+// Leaves of one patch. Spans are valid during the call only.
+struct StreamBatch {
+  std::span<const StreamVertex> vertices;
+  std::span<const Triangle> triangles;                  // index vertices
+  std::span<const std::array<uint32_t, 2>> segments;    // curves: index vertices, in order
+  std::span<const Rgb> colors;                          // none, or one a vertex
+};
+
+// What the consumer of a stream says. Called from the thread that streams.
+class StreamSink {
+ public:
+  virtual ~StreamSink() = default;
+  // May anything within `reach` of the triangle (or, for curves, of the segment a-b, with c = b)
+  // be wanted? Object space, now. Must never say no wrongly; yes costs time only.
+  virtual bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, double reach) = 0;
+  virtual void Take(const StreamBatch& batch) = 0;
+};
+
+// The projection that Split::kAdaptive reads: object space to pixels. Rows give x*w, y*w and w.
+struct AdaptiveView {
+  std::array<double, 12> rows{};
+  double near = 0;
+};
+
+struct StreamStats {
+  uint64_t midpoints = 0;
+  uint64_t triangles = 0;  // leaves emitted
+  uint64_t culled = 0;     // subtrees not made
+  uint32_t depth = 0;
+};
+
+// Welded vertices, sorted by no more than the order in which they were made: coarse ones first.
+struct WeldedShape {
+  Mesh mesh;                          // triangles; empty faces for a curve
+  bool curve = false;
+  bool closed = false;                // curve
+  std::vector<Identity> identity;     // one a point
+  std::vector<uint8_t> level;         // one a point
+  std::vector<Vec3> direction;        // one a point
+  std::vector<uint8_t> coast;         // one a point: lies on a coast
+};
+
+struct WeldLimits {
+  uint64_t max_points = 50'000'000;
+};
+
+class PreparedFractal {
+ public:
+  virtual ~PreparedFractal() = default;
+  virtual size_t RootCount() const = 0;
+  // Object space; all that the root can become, rounding included (S7).
+  virtual Ball Bound(size_t root) const = 0;
+  // patch_hint: about how many leaves to make at a time (256..4096); never changes a bit.
+  virtual StreamStats Stream(size_t root, StreamSink& sink, size_t patch_hint) const = 0;
+  virtual Result<WeldedShape> Weld(const WeldLimits& limits) const = 0;
+};
+
+enum class Takes : uint8_t { kTriangles = 1, kCurve = 2 };
+
+struct MethodInfo {
+  std::string_view name;
+  uint32_t version;                   // in the frame key of every frame that uses it (D5)
+  std::string_view summary;
+  Takes takes;
+  bool streams_exactly;               // states its reach; false: made whole, in bounded pieces
+  FractalSettings defaults;           // Law, Direction, Variant never kDefault here
+  std::span<const std::string_view> knobs;       // names from AllKnobs()
+  std::span<const Law> laws;
+  std::span<const Direction> directions;
+  std::span<const Variant> variants;
+  // `view` is needed for Split::kAdaptive only, may be null otherwise.
+  Result<std::unique_ptr<PreparedFractal>> (*prepare)(CoarseShape shape,
+                                                      const FractalSettings& settings,
+                                                      const AdaptiveView* view);
+};
+
+}  // namespace fjord

@@ -1,0 +1,1 @@
+#include "engine/fractal/settings.h"

@@ -1,0 +1,18 @@
+// Coarse shapes by formula: closed meshes of triangles, outward counter-clockwise, poles and seams
+// welded. Points come from exact functions, so they have the same bits everywhere.
+#pragma once
+
+#include "engine/base/result.h"
+#include "engine/geometry/mesh.h"
+
+namespace fjord {
+
+// segments around (>= 3), rings from pole to pole (>= 2).
+Result<Mesh> MakeEllipsoid(const Vec3& radii, uint32_t segments, uint32_t rings);
+// Around z: centre line `radius`, tube `tube` < radius; both counts >= 3.
+Result<Mesh> MakeTorus(double radius, double tube, uint32_t segments, uint32_t rings);
+Result<Mesh> MakeBox(const Vec3& size, uint32_t along_x, uint32_t along_y);
+// In the plane z = 0, centred, alternating diagonals.
+Result<Mesh> MakeGrid(const Vec3& size, uint32_t along_x, uint32_t along_y);
+
+}  // namespace fjord
