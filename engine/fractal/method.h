@@ -124,6 +124,8 @@ struct MethodInfo {
   std::span<const Law> laws;
   std::span<const Direction> directions;
   std::span<const Variant> variants;
+  std::span<const Split> splits;
+  bool additions;                     // knows Increments::kAdditions (affine, EDGE, FIXED)
   // `view` is needed for Split::kAdaptive only, may be null otherwise.
   Result<std::unique_ptr<PreparedFractal>> (*prepare)(CoarseShape shape,
                                                       const FractalSettings& settings,

@@ -1,0 +1,26 @@
+// The method "coast": a mesh whose border becomes a coastline (S16, S17). Border edges (of one
+// triangle only) are halved and displaced within their triangle's plane; what is emitted is
+// triangles only, all wound alike, whose union is the inside of the fractal outline.
+//
+// Normalising: a triangle with two or three border edges is first cut at its centroid, so that no
+// piece has more than one. Triangle (s,e,o), border edge s-e, midpoint m, displaced p:
+//   outward   keep (s,m,o) and (m,e,o); go on with (s,p) and (p,e), apex m
+//   inward    go on with (s,p) and (p,e), apex o
+// An inward p is held back so that both pieces keep a positive area.
+//
+// Interior edges stay where they are. A root is a triangle, in order. Prepared objects are
+// immutable and shared freely by threads.
+#pragma once
+
+#include <memory>
+
+#include "engine/fractal/method.h"
+
+namespace fjord {
+
+// kInvalid where the shape has no triangles or the settings are not the method's.
+Result<std::unique_ptr<PreparedFractal>> PrepareCoast(CoarseShape shape,
+                                                      const FractalSettings& settings,
+                                                      const AdaptiveView* view);
+
+}  // namespace fjord
