@@ -1,6 +1,6 @@
-// The frame key: SHA-256 over Fjord's own walk of a frame scene. Same key, same picture. The walk is
-// ours, not Protobuf's serialization, so that the key never changes with a library (docs/frame_key.md
-// gives it byte by byte; tests hold known answers).
+// The frame key: SHA-256 over Fjord's own walk of a frame scene. Same key, same picture. The walk
+// is ours, not Protobuf's serialization, so that the key never changes with a library
+// (docs/frame_key.md gives it byte by byte; tests hold known answers).
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,12 @@
 
 namespace fjord {
 
-// Raised with any change that alters the picture of an unchanged frame scene outside the registries.
+// Raised with any change that alters the picture of an unchanged frame scene outside the
+// registries.
 inline constexpr uint32_t kCoreShapeVersion = 1;
 
-// The bytes that are digested: a header with the core shape version and the version of each registry
-// entry used, then the walk. NaN anywhere, or an unknown registry entry: kInvalid.
+// The bytes that are digested: a header with the core shape version and the version of each
+// registry entry used, then the walk. NaN anywhere, or an unknown registry entry: kInvalid.
 Result<std::string> FrameKeyBytes(const v1::FrameScene& frame);
 Result<Digest> FrameKey(const v1::FrameScene& frame);
 

@@ -1,5 +1,6 @@
-// From a scene to the frame scene of one frame (S25): tracks evaluated, points moved along their paths,
-// rest pose and fineness worked out for the whole shot. A pure function; no clock, no network.
+// From a scene to the frame scene of one frame (S25): tracks evaluated, points moved along their
+// paths, rest pose and fineness worked out for the whole shot. A pure function; no clock, no
+// network.
 //
 // I1 At a key's frame every coarse point equals the key's bit for bit.
 // I2 Rest pose, topology and fineness are the same in every frame of a shot.
@@ -14,8 +15,8 @@
 
 namespace fjord {
 
-// A scene made ready for inbetweening: shapes read, keys brought to one topology. Immutable; share it
-// between threads.
+// A scene made ready for inbetweening: shapes read, keys brought to one topology. Immutable; share
+// it between threads.
 class Animation {
  public:
   static Result<std::shared_ptr<const Animation>> Make(LoadedScene scene);
