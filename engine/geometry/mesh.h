@@ -1,5 +1,6 @@
-// Coarse and welded shapes as plain values: a polygon mesh and a polyline. Vertices count from 0 here
-// (from 1 in files and messages to people). Copying is deep; reading from many threads is safe.
+// Coarse and welded shapes as plain values: a polygon mesh and a polyline. Vertices count from 0
+// here (from 1 in files and messages to people). Copying is deep; reading from many threads is
+// safe.
 #pragma once
 
 #include <array>
@@ -12,8 +13,8 @@
 namespace fjord {
 
 // Faces are stored one after another: face f has face_size[f] entries of face_vertex.
-// Invariant of a checked mesh: sizes >= 3, sum of sizes = face_vertex.size(), entries < points.size(),
-// colors empty or one a point, all numbers finite.
+// Invariant of a checked mesh: sizes >= 3, sum of sizes = face_vertex.size(), entries <
+// points.size(), colors empty or one a point, all numbers finite.
 struct Mesh {
   std::vector<Vec3> points;
   std::vector<uint32_t> face_size;

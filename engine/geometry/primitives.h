@@ -1,5 +1,6 @@
 // Coarse shapes by formula: closed meshes of triangles, outward counter-clockwise, poles and seams
-// welded. Points come from exact functions, so they have the same bits everywhere.
+// welded. Points come from exact functions, so they have the same bits everywhere. Lengths must be
+// greater than 0 and at most 1e12, shapes of at most 16,000,000 points; errors name what is wrong.
 #pragma once
 
 #include "engine/base/result.h"
@@ -11,8 +12,9 @@ namespace fjord {
 Result<Mesh> MakeEllipsoid(const Vec3& radii, uint32_t segments, uint32_t rings);
 // Around z: centre line `radius`, tube `tube` < radius; both counts >= 3.
 Result<Mesh> MakeTorus(double radius, double tube, uint32_t segments, uint32_t rings);
+// Centred, closed; along z as many steps as the larger of the two counts.
 Result<Mesh> MakeBox(const Vec3& size, uint32_t along_x, uint32_t along_y);
-// In the plane z = 0, centred, alternating diagonals.
+// In the plane z = 0, centred, alternating diagonals, open; size.z is not used.
 Result<Mesh> MakeGrid(const Vec3& size, uint32_t along_x, uint32_t along_y);
 
 }  // namespace fjord
