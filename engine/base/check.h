@@ -19,10 +19,10 @@ std::string CheckDetails(const Parts&... parts) {
 
 }  // namespace fjord::internal
 
-#define FJORD_CHECK(condition, ...)                                              \
-  do {                                                                           \
-    if (!(condition)) [[unlikely]] {                                             \
-      ::fjord::internal::CheckFailed(__FILE__, __LINE__, #condition,             \
+#define FJORD_CHECK(condition, ...)                                                 \
+  do {                                                                              \
+    if (!(condition)) [[unlikely]] {                                                \
+      ::fjord::internal::CheckFailed(__FILE__, __LINE__, #condition,                \
                                      ::fjord::internal::CheckDetails(__VA_ARGS__)); \
-    }                                                                            \
+    }                                                                               \
   } while (false)

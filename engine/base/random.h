@@ -1,5 +1,6 @@
 // Keyed random numbers: a draw is a pure function of (object seed, identity, channel). There is no
-// state, no order and no stream, so any vertex can be made alone, anywhere, with the same bits (S24).
+// state, no order and no stream, so any vertex can be made alone, anywhere, with the same bits
+// (S24).
 //
 // An identity is 128 bits. A coarse vertex's comes from (seed, number); a midpoint's from its end
 // points', the same for (a, b) and (b, a). `lo` alone keys the draws; vertices are welded by
@@ -8,6 +9,7 @@
 // The arithmetic (integers only) is frozen: golden digests of every picture rest on it.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 
 namespace fjord {
@@ -31,7 +33,8 @@ constexpr uint64_t Mix64(uint64_t x) {
 // Coarse vertex `number` (from 0) of an object with `seed`.
 constexpr Identity CoarseIdentity(uint64_t seed, uint64_t number) {
   const uint64_t s = Mix64(seed + 0x9e3779b97f4a7c15u);
-  return {Mix64(s + number * 0xbf58476d1ce4e5b9u + 1), Mix64(~s + number * 0x94d049bb133111ebu + 1)};
+  return {Mix64(s + number * 0xbf58476d1ce4e5b9u + 1),
+          Mix64(~s + number * 0x94d049bb133111ebu + 1)};
 }
 
 constexpr Identity MidpointIdentity(Identity a, Identity b) {
@@ -48,8 +51,8 @@ inline constexpr int kMaxUniforms = 16;
 
 // Bounded Gaussian after the central limit theorem (S7): the sum of n 16-bit uniforms, scaled to
 // mean 0 and standard deviation 1 exactly, so |g| <= GaussianBound(n). n in 1..kMaxUniforms. The
-// first four uniforms are the 16-bit pieces of DrawBits(lo, 0) from the low end, the next four those of
-// channel 1, and so on; the sum is an integer, converted and scaled once.
+// first four uniforms are the 16-bit pieces of DrawBits(lo, 0) from the low end, the next four
+// those of channel 1, and so on; the sum is an integer, converted and scaled once.
 double Gaussian(uint64_t lo, int n);
 
 // sqrt(3 n (65535 / 65536 ...)): the largest |Gaussian(., n)|.

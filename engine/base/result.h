@@ -1,7 +1,7 @@
 // Result<T>: a value, or an error that a person can act on.
 //
-// Bad input and a failing environment are returned as errors, never thrown; a broken invariant of our
-// own aborts through FJORD_CHECK (check.h). Nothing here allocates beyond the message.
+// Bad input and a failing environment are returned as errors, never thrown; a broken invariant of
+// our own aborts through FJORD_CHECK (check.h). Nothing here allocates beyond the message.
 #pragma once
 
 #include <cstdint>
@@ -54,8 +54,8 @@ template <typename T = Ok>
 class [[nodiscard]] Result {
  public:
   Result() requires std::is_same_v<T, Ok> : value_(Ok{}) {}
-  Result(T value) : value_(std::move(value)) {}        // NOLINT(google-explicit-constructor)
-  Result(Error error) : value_(std::move(error)) {}    // NOLINT(google-explicit-constructor)
+  Result(T value) : value_(std::move(value)) {}      // NOLINT(google-explicit-constructor)
+  Result(Error error) : value_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
 
   bool ok() const { return std::holds_alternative<T>(value_); }
   explicit operator bool() const { return ok(); }
