@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "client/commands/commands.h"
+#include "client/commands/common.h"
+#include "client/console.h"
+#include "client/exit_code.h"
+#include "client/files.h"
+#include "engine/formats/par_file.h"
+#include "engine/formats/shape_file.h"
+#include "engine/geometry/check_mesh.h"
+
+namespace fjord {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  bool animation = false;
+  bool json = false;
+};
+
+Errors CheckShape(const std::string& path) {
+  const Result<std::string> bytes = ReadFile(path);
+  if (!bytes.ok()) return {bytes.error()};
+  const Result<ShapeFile> shape = ReadShape(*bytes, path);
+  if (!shape.ok()) return {shape.error()};
+  Errors errors;
+  for (const MeshDefect& defect : CheckMesh(shape->mesh)) {
+    Place place{path, 0, 0};
+    if (defect.face > 0 && defect.face <= shape->face_line.size())
+      place.line = shape->face_line[defect.face - 1];
+    else if (defect.vertex > 0 && defect.vertex <= shape->vertex_line.size())
+      place.line = shape->vertex_line[defect.vertex - 1];
+    if (place.line > 0) place.column = 1;
+    errors.push_back(Invalid(defect.message, place));
+  }
+  return errors;
+}
+
+Errors CheckParameters(const std::string& path) {
+  const Result<std::string> bytes = ReadFile(path);
+  if (!bytes.ok()) return {bytes.error()};
+  const Result<ParFile> parameters = ReadPar(*bytes, path);
+  return parameters.ok() ? Errors{} : Errors{parameters.error()};
+}
+
+Errors CheckScene(const std::string& path, bool) {
+  OpenedScene scene;
+  return OpenScene(path, {}, &scene);
+}
+
+Errors CheckFile(const std::string& path, bool animation) {
+  if (path.ends_with(".par")) return CheckParameters(path);
+  if (ShapeFormatOf(path).ok()) return CheckShape(path);
+  return CheckScene(path, animation);
+}
+
+int RunCheck(const Options& options) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  int code = kExitDone;
+  for (const std::string& path : options.files) {
+    const Errors errors = CheckFile(path, options.animation);
+    nlohmann::ordered_json defects = nlohmann::ordered_json::array();
+    for (const Error& error : errors) {
+      code = kExitFailed;
+      defects.push_back(
+          {{"line", error.place.line}, {"column", error.place.column}, {"message", error.message}});
+      if (!options.json) console::Fail(error);
+    }
+    list.push_back({{"file", path}, {"good", errors.empty()}, {"defects", std::move(defects)}});
+    if (errors.empty() && !options.json) console::Note(path + ": good");
+  }
+  if (options.json) {
+    const Result<> printed =
+        console::Print(list.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    if (!printed.ok()) return console::Fail(printed.error());
+  }
+  return code;
+}
+
+}  // namespace
+
+void AddCheck(CLI::App& app, Run* run) {
+  CLI::App* command =
+      app.add_subcommand("check", "Check scenes, shapes and parameter files; name every defect");
+  const auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->files, "Scenes, .std .epf .obj .ply .svg shapes, .par files")
+      ->required();
+  command->add_flag("--animation", options->animation,
+                    "Make every frame's shapes too: the same vertices in each, and no jumps");
+  command->add_flag("--json", options->json, "A list as JSON on standard output");
+  command->footer(
+      "A defect is a line FILE:LINE:COLUMN: error: what is wrong. Exit code 1 where there is "
+      "one.\n\n"
+      "Examples:\n"
+      "  fjord check examples/*.scene\n"
+      "  fjord check --animation examples/taiwan-rising.scene\n"
+      "  fjord check coast.std");
+  command->callback([options, run] { *run = [options] { return RunCheck(*options); }; });
+}
+
+}  // namespace fjord

@@ -1,0 +1,112 @@
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "client/commands/commands.h"
+#include "client/commands/common.h"
+#include "client/console.h"
+#include "client/exit_code.h"
+#include "client/frame_folder.h"
+#include "client/interrupt.h"
+#include "client/local_render.h"
+#include "engine/image/picture.h"
+
+namespace fjord {
+namespace {
+
+struct Options {
+  std::string scene;
+  std::string folder;
+  std::string frames;
+  std::string size;
+  std::vector<std::string> sets;
+  int threads = 0;
+  bool json = false;
+};
+
+int Report(const Options& options, const LocalRenderReport& report, const FrameRange& range,
+           double seconds) {
+  if (options.json) {
+    const nlohmann::ordered_json json = {
+        {"folder", options.folder},    {"first", range.first}, {"last", range.last},
+        {"rendered", report.rendered}, {"kept", report.kept},  {"triangles", report.triangles},
+        {"seconds", seconds},
+    };
+    const Result<> printed = console::Print(json.dump(1) + "\n");
+    return printed.ok() ? kExitDone : console::Fail(printed.error());
+  }
+  std::string line = std::to_string(report.rendered) + " frames rendered";
+  if (report.kept > 0) line += ", " + std::to_string(report.kept) + " were there already";
+  console::Note(line + ", in " + FormatDuration(seconds) + ": " + options.folder);
+  return kExitDone;
+}
+
+int RunRender(const Options& options) {
+  Result<FrameRange> range = ParseFrameRange(options.frames);
+  if (!range.ok()) return console::Fail(range.error());
+  const Result<std::vector<Setting>> settings = SettingsOf(options.sets, options.size);
+  if (!settings.ok()) return console::Fail(settings.error());
+  OpenedScene scene;
+  if (const Errors errors = OpenScene(options.scene, *settings, &scene); !errors.empty())
+    return console::Fail(errors);
+  const Animation& animation = *scene.animation;
+  range = WithinAnimation(*range, animation.first_frame(), animation.last_frame(), options.scene);
+  if (!range.ok()) return console::Fail(range.error());
+
+  const auto format = static_cast<PixelFormat>(animation.scene().output().format());
+  Result<std::unique_ptr<FrameFolder>> folder = FrameFolder::Open(
+      options.folder, DescribeScene(animation.scene(), options.scene, scene.digest),
+      FileEnding(format));
+  if (!folder.ok()) return console::Fail(folder.error());
+
+  const auto start = std::chrono::steady_clock::now();
+  LocalRenderReport report;
+  const LocalRenderJob job{scene.animation, range->first, range->last, options.threads,
+                           &CatchInterrupts()};
+  const uint32_t total = range->last - range->first + 1;
+  Result<> rendered;
+  {
+    FrameProgress progress(animation.scene().name(), total, FrameProgress::Console());
+    rendered = RenderLocally(job, folder->get(), &progress, &report);
+  }
+  if (!rendered.ok() && rendered.error().code == ErrorCode::kCancelled) {
+    return console::Fail(MakeError(ErrorCode::kCancelled,
+                                   "interrupted; " + std::to_string(report.rendered + report.kept) +
+                                       " of " + std::to_string(total) + " frames are in " +
+                                       options.folder + ", the same command continues"));
+  }
+  if (!rendered.ok()) return console::Fail(rendered.error());
+  return Report(options, report, *range,
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+}  // namespace
+
+void AddRender(CLI::App& app, Run* run) {
+  CLI::App* command = app.add_subcommand("render", "Render a scene on this machine");
+  const auto options = std::make_shared<Options>();
+  command->add_option("SCENE", options->scene, "Scene file")->required();
+  command->add_option("-o,--output", options->folder, "Folder for frames and manifest.json")
+      ->required();
+  command->add_option("--frames", options->frames, "One frame or a range, as 1-48; default all");
+  command->add_option("--size", options->size, "Picture size instead of the scene's, as 960x540");
+  command->add_option("--threads", options->threads, "Threads on one frame; 0: one a core")
+      ->check(CLI::Range(0, 1024));
+  command
+      ->add_option("--set", options->sets, "path=value, instead of what the scene says; repeatable")
+      ->allow_extra_args(false);
+  command->add_flag("--json", options->json, "A summary as JSON on standard output");
+  command->footer(
+      "Frames that are there already, made under the same frame key, are kept: after Ctrl-C the "
+      "same\n"
+      "command continues.\n\n"
+      "Examples:\n"
+      "  fjord render examples/taiwan-rising.scene -o out\n"
+      "  fjord render island.scene -o out --frames 48 --size 1920x1080\n"
+      "  fjord render island.scene -o rough --set objects[island].fractal.H=.3");
+  command->callback([options, run] { *run = [options] { return RunRender(*options); }; });
+}
+
+}  // namespace fjord

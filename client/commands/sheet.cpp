@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/commands/commands.h"
+#include "client/console.h"
+#include "client/contact_sheet.h"
+#include "client/exit_code.h"
+#include "client/frame_list.h"
+#include "engine/image/codec.h"
+
+namespace fjord {
+namespace {
+
+struct Options {
+  std::string folder;
+  std::string output;
+  SheetLayout layout;
+};
+
+int RunSheet(const Options& options) {
+  const Result<FrameList> frames = FramesOf(options.folder, options.output);
+  if (!frames.ok()) return console::Fail(frames.error());
+  const Result<Picture> sheet = MakeContactSheet(frames->files, options.layout);
+  if (!sheet.ok()) return console::Fail(sheet.error());
+  const Result<std::string> bytes = EncodePicture(*sheet, {});
+  if (!bytes.ok()) return console::Fail(bytes.error());
+  if (const Result<> written = WriteFileAtomically(options.output, *bytes); !written.ok())
+    return console::Fail(written.error());
+  console::Note(std::to_string(frames->files.size()) + " frames on " + options.output);
+  return kExitDone;
+}
+
+}  // namespace
+
+void AddSheet(CLI::App& app, Run* run) {
+  CLI::App* command = app.add_subcommand("sheet", "Make a contact sheet of a folder of frames");
+  const auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->folder, "Folder of frames")->required();
+  command->add_option("-o,--output", options->output, "The sheet, a .png file")->required();
+  command
+      ->add_option("--columns", options->layout.columns, "Thumbnails side by side; default chosen")
+      ->check(CLI::Range(1, 100));
+  command->add_option("--width", options->layout.width, "Width of the sheet in pixels, about")
+      ->check(CLI::Range(64, 16384));
+  command->footer(
+      "Examples:\n"
+      "  fjord sheet out/taiwan-rising -o contact-sheet.png\n"
+      "  fjord sheet out -o sheet.png --columns 8 --width 3840");
+  command->callback([options, run] { *run = [options] { return RunSheet(*options); }; });
+}
+
+}  // namespace fjord

@@ -1,0 +1,26 @@
+// What people read: errors and notes on stderr, results on stdout. One mutex keeps lines whole when
+// several threads speak, and clears a progress bar before anything else is printed.
+#pragma once
+
+#include <string>
+
+#include "engine/base/result.h"
+
+namespace fjord::console {
+
+bool StderrIsTerminal();
+int TerminalWidth();  // columns of stderr; 80 where unknown
+
+// A line on stderr.
+void Note(const std::string& line);
+// The error on stderr, and the exit code that goes with it.
+int Fail(const Error& error);
+int Fail(const Errors& errors);
+
+// The live line at the bottom of a terminal; empty clears it. Nothing on a pipe.
+void SetLiveLine(const std::string& line);
+
+// stdout, flushed; kIo where it is closed or full.
+Result<> Print(const std::string& text);
+
+}  // namespace fjord::console

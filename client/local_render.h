@@ -1,0 +1,34 @@
+// A whole job on this machine: inbetween, key, render, encode, write; frame after frame. Encoding
+// and writing of one frame overlap the rendering of the next where more than one thread is allowed.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "client/frame_folder.h"
+#include "client/progress.h"
+#include "engine/animation/inbetween.h"
+
+namespace fjord {
+
+struct LocalRenderJob {
+  std::shared_ptr<const Animation> animation;
+  uint32_t first = 0;
+  uint32_t last = 0;
+  int threads = 0;  // on one frame; 0: one a core
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+struct LocalRenderReport {
+  uint32_t rendered = 0;
+  uint32_t kept = 0;  // were there already
+  uint64_t triangles = 0;
+};
+
+// kCancelled when the flag is set: what was finished is written and named in the manifest. `report`
+// is filled in either way.
+Result<> RenderLocally(const LocalRenderJob& job, FrameFolder* folder, FrameProgress* progress,
+                       LocalRenderReport* report);
+
+}  // namespace fjord
