@@ -1,10 +1,202 @@
 #include "engine/fractal/curve.h"
 
-namespace fjord {
+#include <optional>
 
-Result<std::unique_ptr<PreparedFractal>> PrepareCurve(CoarseShape, const FractalSettings&,
-                                                      const AdaptiveView*) {
-  return MakeError(ErrorCode::kInternal, "curve is not built in");
+#include "engine/fractal/curve_additions.h"
+#include "engine/fractal/curve_chain.h"
+#include "engine/fractal/curve_rules.h"
+#include "engine/fractal/registry.h"
+
+namespace fjord {
+namespace {
+
+// Gathers leaves, gives them away a batch at a time. Neighbours in the chain share their vertex.
+class SegmentBatch {
+ public:
+  SegmentBatch(StreamSink& sink, size_t size, bool colored)
+      : sink_(sink), size_(size < 16 ? 16 : size), colored_(colored) {}
+
+  void Add(const LineSegment& leaf) {
+    if (segments_.empty() || !(last_ == leaf.a.id)) {
+      Push(leaf.a);
+    }
+    Push(leaf.b);
+    last_ = leaf.b.id;
+    const auto count = static_cast<uint32_t>(vertices_.size());
+    segments_.push_back({count - 2, count - 1});
+    if (segments_.size() >= size_) {
+      Flush();
+    }
+  }
+
+  void Flush() {
+    if (!segments_.empty()) {
+      sink_.Take({vertices_, {}, segments_, colors_});
+    }
+    vertices_.clear();
+    segments_.clear();
+    colors_.clear();
+  }
+
+ private:
+  void Push(const LineVertex& v) {
+    vertices_.push_back(ToStream(v));
+    if (colored_) {
+      colors_.push_back(v.color);
+    }
+  }
+
+  StreamSink& sink_;
+  const size_t size_;
+  const bool colored_;
+  Identity last_;
+  std::vector<StreamVertex> vertices_;
+  std::vector<std::array<uint32_t, 2>> segments_;
+  std::vector<Rgb> colors_;
+};
+
+class PreparedCurve : public PreparedFractal {
+ public:
+  PreparedCurve(CurveChain chain, LineRules rules, bool colored)
+      : chain_(std::move(chain)), rules_(std::move(rules)), colored_(colored) {
+    if (rules_.settings().increments == Increments::kAdditions) {
+      additions_.emplace(rules_.settings());
+    }
+  }
+
+  size_t RootCount() const override { return chain_.EdgeCount(); }
+
+  Ball Bound(size_t root) const override {
+    const LineSegment edge = chain_.Edge(root);
+    return {(edge.a.position + edge.b.position) * .5,
+            .5 * Length(edge.b.position - edge.a.position) * (1 + 1e-12) + Reach(edge, edge)};
+  }
+
+  StreamStats Stream(size_t root, StreamSink& sink, size_t patch_hint) const override {
+    StreamStats stats;
+    SegmentBatch batch(sink, patch_hint, colored_);
+    const LineSegment edge = chain_.Edge(root);
+    Walk(
+        root, &stats,
+        [&](const LineSegment& s) {
+          return sink.Wants(s.a.position, s.b.position, s.b.position, Reach(s, edge));
+        },
+        [&](const LineSegment& leaf) {
+          batch.Add(leaf);
+          return true;
+        });
+    batch.Flush();
+    return stats;
+  }
+
+  Result<WeldedShape> Weld(const WeldLimits& limits) const override {
+    WeldedShape shape;
+    shape.curve = true;
+    shape.closed = chain_.closed;
+    const auto add = [&](const LineVertex& v) {
+      shape.mesh.points.push_back(v.position);
+      shape.identity.push_back(v.id);
+      shape.level.push_back(static_cast<uint8_t>(v.level));
+      shape.direction.push_back(v.direction);
+      shape.coast.push_back(0);
+      if (colored_) {
+        shape.mesh.colors.push_back(v.color);
+      }
+    };
+    for (size_t root = 0; root < RootCount(); ++root) {
+      StreamStats stats;
+      const bool complete = Walk(
+          root, &stats, [](const LineSegment&) { return true; },
+          [&](const LineSegment& leaf) {
+            add(leaf.a);
+            return shape.mesh.points.size() <= limits.max_points;
+          });
+      if (!complete) {
+        return MakeError(ErrorCode::kLimit, "the curve has more than " +
+                                                std::to_string(limits.max_points) +
+                                                " points; choose a coarser fineness");
+      }
+    }
+    if (!chain_.closed) {
+      add(chain_.vertices.back());
+    }
+    return shape;
+  }
+
+ private:
+  // What lies below a segment of the edge. Additions move a segment's ends as far as its inside, so
+  // a point may be anywhere within the edge's reach of the edge: twice that of the segment.
+  double Reach(const LineSegment& segment, const LineSegment& edge) const {
+    return additions_ ? 2 * additions_->Reach(edge) : rules_.Reach(segment);
+  }
+
+  LineVertex Halve(const LineSegment& s, const LineFrame& frame, const LineRules::Size& size,
+                   const LineSegment& edge) const {
+    LineVertex v = rules_.Halve(s, frame, size).vertex;
+    if (additions_) {
+      v.position = additions_->Place(edge, frame, 2 * s.place + 1, s.level() + 1);
+    }
+    return v;
+  }
+
+  // Depth-first, along the chain. wants(segment): is it to be made; asked of large ones only.
+  // take(leaf) returns false to stop; then so does Walk.
+  template <typename Wants, typename Take>
+  bool Walk(size_t root, StreamStats* stats, const Wants& wants, const Take& take) const {
+    const LineSegment edge = chain_.Edge(root);
+    const LineFrame& frame = chain_.frames[root];
+    std::vector<LineSegment> stack{edge};
+    while (!stack.empty()) {
+      const LineSegment s = stack.back();
+      stack.pop_back();
+      const LineRules::Size size = rules_.Measure(s);
+      if ((s.level() == 0 || size.IsLarge()) && !wants(s)) {
+        ++stats->culled;
+        continue;
+      }
+      if (!size.Splits()) {
+        ++stats->triangles;
+        stats->depth = s.level() > stats->depth ? s.level() : stats->depth;
+        if (!take(s)) {
+          return false;
+        }
+        continue;
+      }
+      ++stats->midpoints;
+      const LineVertex middle = Halve(s, frame, size, edge);
+      stack.push_back(rules_.Second(s, middle));
+      stack.push_back(rules_.First(s, middle));
+    }
+    return true;
+  }
+
+  CurveChain chain_;
+  LineRules rules_;
+  bool colored_;
+  std::optional<CurveAdditions> additions_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<PreparedFractal>> PrepareCurve(CoarseShape shape,
+                                                      const FractalSettings& settings,
+                                                      const AdaptiveView* view) {
+  const MethodInfo& method = *FindFractalMethod("curve");
+  const Errors errors = CheckSettings(method, settings);
+  if (!errors.empty()) {
+    return errors.front();
+  }
+  const FractalSettings resolved = ResolveSettings(method, settings);
+  Result<LineRules> rules = LineRules::Make(resolved, view);
+  if (!rules.ok()) {
+    return rules.error();
+  }
+  Result<CurveChain> chain = MakeCurveChain(shape, resolved);
+  if (!chain.ok()) {
+    return chain.error();
+  }
+  return std::unique_ptr<PreparedFractal>(
+      std::make_unique<PreparedCurve>(std::move(*chain), std::move(*rules), !shape.colors.empty()));
 }
 
 }  // namespace fjord
