@@ -2,8 +2,8 @@
 //
 // Reading: Protobuf text format (syntax errors by line and column) or JSON (errors by path), by
 // content. Then defaults, then validation: several defects at once, each with file:line:column.
-// A loaded scene is complete: every optional number has a value, names are unique, references resolve,
-// all numbers are finite and within engine/scene/limits.h.
+// A loaded scene is complete: every optional number has a value, names are unique, references
+// resolve, all numbers are finite and within engine/scene/limits.h.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@ namespace fjord {
 using AssetReader = std::function<Result<std::string>(const v1::File& file)>;
 
 struct Setting {
-  std::string path;   // "objects[coast].fractal.H"
+  std::string path;  // "objects[coast].fractal.H"
   std::string value;
 };
 

@@ -1,0 +1,24 @@
+// From the messages of a frame scene to the plain values that fractal methods take. Render, export
+// and the animation check all come through here, so that they prepare the same object.
+#pragma once
+
+#include <memory>
+
+#include "engine/base/result.h"
+#include "engine/fractal/method.h"
+#include "fjord/v1/frame.pb.h"
+
+namespace fjord {
+
+// Points, rest pose, colours; faces cut into triangles by the rest pose, so that every frame of a
+// shot has the same triangles. kInvalid where the message is inconsistent (indices, counts).
+Result<CoarseShape> CoarseShapeOf(const v1::FrameObject& object);
+
+FractalSettings FractalSettingsOf(const v1::FrameFractal& fractal);
+
+// The object's fractal, prepared by its method. Needs object.has_fractal(). `view` as in
+// MethodInfo.
+Result<std::unique_ptr<PreparedFractal>> PrepareFractal(const v1::FrameObject& object,
+                                                        const AdaptiveView* view);
+
+}  // namespace fjord

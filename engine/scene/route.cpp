@@ -1,0 +1,201 @@
+#include "engine/scene/route.h"
+
+#include <google/protobuf/descriptor.h>
+
+#include <charconv>
+
+#include "engine/scene/nearest.h"
+
+namespace fjord {
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::Reflection;
+
+bool IsMessage(const FieldDescriptor& field) {
+  return field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
+}
+
+// "" where the message has no name.
+std::string NameOf(const Message& message) {
+  const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName("name");
+  if (field == nullptr || field->cpp_type() != FieldDescriptor::CPPTYPE_STRING) return "";
+  return message.GetReflection()->GetString(message, field);
+}
+
+std::vector<std::string> FieldNames(const Descriptor& type) {
+  std::vector<std::string> names;
+  for (int i = 0; i < type.field_count(); ++i) names.push_back(type.field(i)->name());
+  return names;
+}
+
+// The entry of a list that [selector] means; a name wins over a number.
+Result<int> FindEntry(const Message* parent, const FieldDescriptor& field,
+                      const std::string& selector, const std::string& list) {
+  const Reflection* reflection = parent == nullptr ? nullptr : parent->GetReflection();
+  const int size = parent == nullptr ? 0 : reflection->FieldSize(*parent, &field);
+  std::vector<std::string> names;
+  for (int i = 0; i < size && IsMessage(field); ++i) {
+    const std::string name = NameOf(reflection->GetRepeatedMessage(*parent, &field, i));
+    if (name == selector) return i;
+    if (!name.empty()) names.push_back(name);
+  }
+  uint64_t number = 0;
+  const char* end = selector.data() + selector.size();
+  const auto [stop, code] = std::from_chars(selector.data(), end, number);
+  if (stop == end && code == std::errc()) {
+    if (number >= 1 && number <= static_cast<uint64_t>(size)) return static_cast<int>(number) - 1;
+    return Invalid(list + " has " + std::to_string(size) + (size == 1 ? " entry" : " entries") +
+                   ", counted from 1; there is no " + selector);
+  }
+  return Invalid(list + " has no entry named \"" + selector + "\"" + SuggestNames(selector, names));
+}
+
+const Message* Child(const Message& parent, const RouteStep& step) {
+  const Reflection& reflection = *parent.GetReflection();
+  if (step.index >= 0) {
+    if (step.index >= reflection.FieldSize(parent, step.field)) return nullptr;
+    return &reflection.GetRepeatedMessage(parent, step.field, step.index);
+  }
+  return reflection.HasField(parent, step.field) ? &reflection.GetMessage(parent, step.field)
+                                                 : nullptr;
+}
+
+Error NoField(const Descriptor& type, const std::string& name, const std::string& prefix) {
+  const std::vector<std::string> names = FieldNames(type);
+  return Invalid((prefix.empty() ? "a scene" : prefix) + " has no field \"" + name + "\"" +
+                 SuggestNames(name, names, 32));
+}
+
+}  // namespace
+
+Route Route::Then(std::string_view field, int index) const {
+  const Descriptor* type =
+      steps.empty() ? v1::Scene::descriptor() : steps.back().field->message_type();
+  FJORD_CHECK(type != nullptr, field);
+  const FieldDescriptor* found = type->FindFieldByName(std::string(field));
+  FJORD_CHECK(found != nullptr, type->full_name(), field);
+  Route route = *this;
+  route.steps.push_back({found, index});
+  return route;
+}
+
+bool Route::Holds(const Route& other) const {
+  if (other.steps.size() < steps.size()) return false;
+  for (size_t i = 0; i < steps.size(); ++i) {
+    if (!(steps[i] == other.steps[i])) return false;
+  }
+  return true;
+}
+
+std::string PrintRoute(const v1::Scene& scene, const Route& route) {
+  std::string text;
+  const Message* message = &scene;
+  for (const RouteStep& step : route.steps) {
+    if (!text.empty()) text += '.';
+    text += step.field->name();
+    const Message* child = message != nullptr && IsMessage(*step.field) &&
+                                   (step.index >= 0 || !step.field->is_repeated())
+                               ? Child(*message, step)
+                               : nullptr;
+    if (step.index >= 0) {
+      const std::string name = child == nullptr ? "" : NameOf(*child);
+      text += '[' + (IsSceneName(name) ? name : std::to_string(step.index + 1)) + ']';
+    }
+    message = child;
+  }
+  return text;
+}
+
+Result<Route> FindRoute(const v1::Scene& scene, const FieldPath& path) {
+  Route route;
+  const Message* message = &scene;
+  const Descriptor* type = v1::Scene::descriptor();
+  std::string prefix;
+  for (const PathPiece& piece : path.pieces) {
+    if (type == nullptr)
+      return Invalid(prefix + " is a plain value; it has no field \"" + piece.field + "\"");
+    const FieldDescriptor* field = type->FindFieldByName(piece.field);
+    if (field == nullptr) return NoField(*type, piece.field, prefix);
+    const std::string here = (prefix.empty() ? "" : prefix + ".") + piece.field;
+    RouteStep step{field, -1};
+    if (!field->is_repeated()) {
+      if (!piece.selector.empty())
+        return Invalid(here + " is not a list; leave out [" + piece.selector + "]");
+    } else if (piece.selector.empty()) {
+      return Invalid(here + " is a list; say which entry, by name or number from 1: " + here +
+                     "[1]");
+    } else {
+      Result<int> entry = FindEntry(message, *field, piece.selector, here);
+      if (!entry) return entry.error();
+      step.index = *entry;
+    }
+    const auto* oneof = field->real_containing_oneof();
+    if (oneof != nullptr && message != nullptr) {
+      const FieldDescriptor* used =
+          message->GetReflection()->GetOneofFieldDescriptor(*message, oneof);
+      if (used != nullptr && used != field) {
+        return Invalid(prefix + " is a " + used->name() + ", not a " + field->name());
+      }
+    }
+    route.steps.push_back(step);
+    prefix = here + (step.index >= 0 ? "[" + piece.selector + "]" : "");
+    type = field->message_type();
+    message = message != nullptr && type != nullptr ? Child(*message, step) : nullptr;
+  }
+  return route;
+}
+
+Message* OpenParent(v1::Scene* scene, const Route& route) {
+  FJORD_CHECK(!route.empty());
+  Message* message = scene;
+  for (size_t i = 0; i + 1 < route.steps.size(); ++i) {
+    const RouteStep& step = route.steps[i];
+    const Reflection* reflection = message->GetReflection();
+    message = step.index >= 0 ? reflection->MutableRepeatedMessage(message, step.field, step.index)
+                              : reflection->MutableMessage(message, step.field);
+  }
+  return message;
+}
+
+const Message* FindParent(const v1::Scene& scene, const Route& route) {
+  const Message* message = &scene;
+  for (size_t i = 0; i + 1 < route.steps.size() && message != nullptr; ++i) {
+    message = Child(*message, route.steps[i]);
+  }
+  return message;
+}
+
+int NumberCount(const RouteStep& step) {
+  if (step.field->is_repeated() && step.index < 0) return 0;
+  if (step.field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE) return 1;
+  if (!IsMessage(*step.field)) return 0;
+  const Descriptor* type = step.field->message_type();
+  return type == v1::Vec3::descriptor() || type == v1::Color::descriptor() ? 3 : 0;
+}
+
+void SetNumbers(v1::Scene* scene, const Route& route, std::span<const double> values) {
+  const RouteStep& last = route.steps.back();
+  FJORD_CHECK(static_cast<int>(values.size()) == NumberCount(last), values.size());
+  Message* parent = OpenParent(scene, route);
+  const Reflection* reflection = parent->GetReflection();
+  if (!IsMessage(*last.field)) {
+    if (last.index >= 0) {
+      reflection->SetRepeatedDouble(parent, last.field, last.index, values[0]);
+    } else {
+      reflection->SetDouble(parent, last.field, values[0]);
+    }
+    return;
+  }
+  Message* vector = last.index >= 0
+                        ? reflection->MutableRepeatedMessage(parent, last.field, last.index)
+                        : reflection->MutableMessage(parent, last.field);
+  for (int i = 0; i < 3; ++i) {
+    vector->GetReflection()->SetDouble(vector, vector->GetDescriptor()->field(i),
+                                       values[static_cast<size_t>(i)]);
+  }
+}
+
+}  // namespace fjord

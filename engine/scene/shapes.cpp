@@ -1,0 +1,165 @@
+#include "engine/scene/shapes.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/formats/shape_file.h"
+#include "engine/geometry/primitives.h"
+#include "engine/scene/limits.h"
+
+namespace fjord {
+namespace {
+
+Vec3 ToVec3(const v1::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Geometry FromMesh(Mesh mesh) {
+  Geometry geometry;
+  geometry.points = std::move(mesh.points);
+  geometry.face_size = std::move(mesh.face_size);
+  geometry.face_vertex = std::move(mesh.face_vertex);
+  geometry.colors = std::move(mesh.colors);
+  return geometry;
+}
+
+// What every shape must keep, wherever it comes from.
+Result<Geometry> Checked(Geometry geometry) {
+  const size_t count = geometry.points.size();
+  if (geometry.curve) {
+    const size_t least = geometry.closed ? 3 : 2;
+    if (count < least) {
+      return Invalid((geometry.closed ? "a closed polyline" : "a polyline") +
+                     std::string(" needs ") + std::to_string(least) + " points or more; this has " +
+                     std::to_string(count));
+    }
+    return geometry;
+  }
+  if (geometry.face_size.empty()) return Invalid("the mesh has no faces");
+  if (!geometry.colors.empty() && geometry.colors.size() != count) {
+    return Invalid("the mesh has " + std::to_string(count) + " points and " +
+                   std::to_string(geometry.colors.size()) + " colours; give none or one a point");
+  }
+  size_t corner = 0;
+  for (size_t f = 0; f < geometry.face_size.size(); ++f) {
+    if (geometry.face_size[f] < 3) {
+      return Invalid("face " + std::to_string(f + 1) + " has " +
+                     std::to_string(geometry.face_size[f]) + " corners; it needs three or more");
+    }
+    for (uint32_t i = 0; i < geometry.face_size[f]; ++i, ++corner) {
+      if (geometry.face_vertex[corner] >= count) {
+        return Invalid("face " + std::to_string(f + 1) + " names vertex " +
+                       std::to_string(uint64_t{geometry.face_vertex[corner]} + 1) +
+                       "; there are vertices 1 to " + std::to_string(count));
+      }
+    }
+  }
+  return geometry;
+}
+
+Result<Geometry> FromMessage(const v1::Mesh& mesh) {
+  Geometry geometry;
+  for (const v1::Vec3& point : mesh.point()) geometry.points.push_back(ToVec3(point));
+  for (const v1::Color& color : mesh.color()) {
+    geometry.colors.emplace_back(Vec3(color.r(), color.g(), color.b()));
+  }
+  for (int f = 0; f < mesh.face_size(); ++f) {
+    geometry.face_size.push_back(static_cast<uint32_t>(mesh.face(f).v_size()));
+    for (const uint32_t vertex : mesh.face(f).v()) {
+      if (vertex == 0) {
+        return Invalid("face " + std::to_string(f + 1) + " names vertex 0; vertices count from 1");
+      }
+      geometry.face_vertex.push_back(vertex - 1);
+    }
+  }
+  return Checked(std::move(geometry));
+}
+
+Result<Geometry> FromMessage(const v1::Polyline& polyline) {
+  Geometry geometry;
+  geometry.curve = true;
+  geometry.closed = polyline.closed();
+  for (const v1::Vec3& point : polyline.point()) geometry.points.push_back(ToVec3(point));
+  return Checked(std::move(geometry));
+}
+
+// Needs a primitive whose defaults are filled in (defaults.h).
+Result<Mesh> MakePrimitive(const v1::Primitive& primitive) {
+  const uint32_t segments = primitive.segments(), rings = primitive.rings();
+  if (uint64_t{segments} * rings > limits::kFilePoints) {
+    return MakeError(ErrorCode::kLimit, "a primitive may have at most " +
+                                            std::to_string(limits::kFilePoints) + " points");
+  }
+  switch (primitive.kind()) {
+    case v1::Primitive::SPHERE:
+      return MakeEllipsoid(Vec3(primitive.radius()), segments, rings);
+    case v1::Primitive::ELLIPSOID:
+      return MakeEllipsoid(ToVec3(primitive.radii()), segments, rings);
+    case v1::Primitive::TORUS:
+      return MakeTorus(primitive.radius(), primitive.tube(), segments, rings);
+    case v1::Primitive::BOX:
+      return MakeBox(ToVec3(primitive.size()), segments, rings);
+    case v1::Primitive::GRID:
+      return MakeGrid(ToVec3(primitive.size()), segments, rings);
+    default:
+      return Invalid("a primitive of an unknown kind");
+  }
+}
+
+Result<Geometry> FromFile(const v1::File& file, const std::string& bytes) {
+  Result<ShapeFile> read = ReadShape(bytes, file.path().empty() ? file.digest() : file.path());
+  if (!read) return read.error();
+  Geometry geometry;
+  if (!file.outline() && read->mesh.FaceCount() > 0) {
+    geometry = FromMesh(std::move(read->mesh));
+  } else if (file.outline() && read->mesh.FaceCount() > 0) {
+    const Mesh& mesh = read->mesh;
+    geometry.curve = geometry.closed = true;
+    for (uint32_t i = 0; i < mesh.face_size[0]; ++i) {
+      geometry.points.push_back(mesh.points[mesh.face_vertex[i]]);
+    }
+  } else if (!read->curves.empty()) {
+    geometry.curve = true;
+    geometry.closed = read->curves[0].closed;
+    geometry.points = std::move(read->curves[0].points);
+  } else {
+    return Invalid(file.path() + " has no faces and no curves");
+  }
+  return Checked(std::move(geometry));
+}
+
+}  // namespace
+
+Result<Geometry> DecodeShape(const v1::Shape& shape,
+                             const std::map<std::string, std::string>& assets) {
+  switch (shape.kind_case()) {
+    case v1::Shape::kMesh:
+      return FromMessage(shape.mesh());
+    case v1::Shape::kPolyline:
+      return FromMessage(shape.polyline());
+    case v1::Shape::kPrimitive: {
+      Result<Mesh> mesh = MakePrimitive(shape.primitive());
+      if (!mesh) return mesh.error();
+      return Checked(FromMesh(std::move(*mesh)));
+    }
+    case v1::Shape::kFile: {
+      const auto found = assets.find(shape.file().digest());
+      if (found == assets.end()) return Invalid("file " + shape.file().path() + " was not read");
+      return FromFile(shape.file(), found->second);
+    }
+    default:
+      return Invalid("the shape is empty; give it mesh, polyline, primitive or file");
+  }
+}
+
+void Box::Add(const Vec3& point) {
+  if (empty) {
+    low = high = point;
+    empty = false;
+    return;
+  }
+  for (int i = 0; i < 3; ++i) {
+    low[i] = std::min(low[i], point[i]);
+    high[i] = std::max(high[i], point[i]);
+  }
+}
+
+}  // namespace fjord

@@ -1,0 +1,46 @@
+// A scene's text as it was read, for telling where a defect is: file:line:column in text form, the
+// --set that wrote the value, or the file alone (JSON and binary, whose errors go by path).
+#pragma once
+
+#include <google/protobuf/text_format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/scene/route.h"
+
+namespace fjord {
+
+// Not for sharing between threads while it is filled.
+struct SceneSource {
+  enum class Form { kText, kJson, kBinary };
+  Form form = Form::kText;
+  std::string name;
+  google::protobuf::TextFormat::ParseInfoTree tree;  // text form
+  std::vector<std::pair<Route, std::string>> set;    // route, "--set path=value"
+
+  // The place of the field, or of the nearest thing around it that was written.
+  Place Find(const Route& route) const;
+};
+
+// Collects defects of a scene, at most limits::kErrors.
+class SceneErrors {
+ public:
+  SceneErrors(const v1::Scene* scene, const SceneSource* source) : scene_(scene), source_(source) {}
+
+  // "file:line:column: error: objects[coast].fractal: message"; the path is of the route.
+  void Add(const Route& route, const std::string& message, ErrorCode code = ErrorCode::kInvalid);
+  void AddAt(Error error);
+  bool Full() const;
+  bool empty() const { return errors_.empty(); }
+  Errors Take() { return std::move(errors_); }
+
+ private:
+  const v1::Scene* scene_;
+  const SceneSource* source_;
+  Errors errors_;
+};
+
+}  // namespace fjord
