@@ -16,6 +16,7 @@
 
 #include <cstdint>
 
+#include "engine/base/exact_trig-inl.h"
 #include "engine/base/simd.h"
 #include "hwy/highway.h"
 
@@ -32,8 +33,6 @@ struct TwoDoubles {
   V lo;
 };
 
-// Adding it to |x| < 2^51 leaves round(x) in the low bits; subtracting it again gives round(x).
-inline constexpr double kRoundingShift = 6755399441055744.0;  // 1.5 * 2^52
 inline constexpr uint64_t kHigh26Bits = 0xfffffffff8000000u;  // sign, exponent, 26 bits of 53
 
 // Cuts v to 26 significant bits: products of two such are exact.
@@ -43,10 +42,9 @@ HWY_INLINE V CutTo26Bits(D d, V v) {
   return hn::BitCast(d, hn::And(hn::BitCast(du, v), hn::Set(du, kHigh26Bits)));
 }
 
-// log2 x for normal x > 0 with about 2^-59 of relative error. hi has at most 53 bits; other x:
-// -1075.
+// log2 x for normal x > 0 with about 2^-60 of relative error. Other x give anything.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE TwoDoubles<V> Log2Parts(D d, V x) {
+HWY_INLINE TwoDoubles<V> Log2OfNormal(D d, V x) {
   const hn::RebindToUnsigned<D> du;
   const V one = hn::Set(d, 1.0);
   // x = 2^e m, m in [sqrt(1/2), sqrt 2): e + 1024 is left in the exponent field of `shifted`.
@@ -86,21 +84,20 @@ HWY_INLINE TwoDoubles<V> Log2Parts(D d, V x) {
   const V below = (high - (above - e)) + low;
   const V sum = above + below;
   const V rest = (above - sum) + below;
-  const auto normal = hn::Ge(x, hn::Set(d, 0x1p-1022));
-  return {hn::IfThenElse(normal, sum, hn::Set(d, -1075.0)), hn::IfThenElseZero(normal, rest)};
+  return {sum, rest};
 }
 
-// 2^(hi + lo), |lo| <= 2^-20.
+// The same; x that are not normal and positive give -1075.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Exp2Parts(D d, V hi, V lo) {
-  const hn::RebindToUnsigned<D> du;
-  const V least = hn::Set(d, -1100.0);
-  const V most = hn::Set(d, 1100.0);
-  const V above = hn::IfThenElse(hn::Gt(hi, least), hi, least);
-  const V x = hn::IfThenElse(hn::Lt(above, most), above, most);
-  const V shifted = x + hn::Set(d, kRoundingShift);
-  const V k = shifted - hn::Set(d, kRoundingShift);
-  const V f = (x - k) + lo;
+HWY_INLINE TwoDoubles<V> Log2Parts(D d, V x) {
+  const TwoDoubles<V> log = Log2OfNormal(d, x);
+  const auto normal = hn::Ge(x, hn::Set(d, 0x1p-1022));
+  return {hn::IfThenElse(normal, log.hi, hn::Set(d, -1075.0)), hn::IfThenElseZero(normal, log.lo)};
+}
+
+// 2^f for f in -.51 .. .51; exactly 1 at 0.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Exp2OfFraction(D d, V f) {
   // (2^f - 1) / f, even and odd powers apart.
   const V ff = f * f;
   const V even = hn::Set(d, 0x1.62e42fefa39efp-1) +
@@ -114,7 +111,30 @@ HWY_INLINE V Exp2Parts(D d, V hi, V lo) {
                       ff * (hn::Set(d, 0x1.4309130f2fd3ep-13) +
                             ff * (hn::Set(d, 0x1.62bfc6cbf0405p-20) +
                                   ff * hn::Set(d, 0x1.e61ca9be8602dp-28))));
-  const V power = hn::Set(d, 1.0) + f * (even + f * odd);
+  return hn::Set(d, 1.0) + f * (even + f * odd);
+}
+
+// 2^(hi + lo), |lo| <= 2^-20, where the result is a normal number. Elsewhere it gives anything.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Exp2ToNormal(D d, V hi, V lo) {
+  const hn::RebindToUnsigned<D> du;
+  const V shifted = hi + hn::Set(d, kRoundingShift);
+  const V k = shifted - hn::Set(d, kRoundingShift);
+  const V power = Exp2OfFraction(d, (hi - k) + lo);
+  return hn::BitCast(d, hn::BitCast(du, power) + hn::ShiftLeft<52>(hn::BitCast(du, shifted)));
+}
+
+// 2^(hi + lo), |lo| <= 2^-20.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Exp2Parts(D d, V hi, V lo) {
+  const hn::RebindToUnsigned<D> du;
+  const V least = hn::Set(d, -1100.0);
+  const V most = hn::Set(d, 1100.0);
+  const V above = hn::IfThenElse(hn::Gt(hi, least), hi, least);
+  const V x = hn::IfThenElse(hn::Lt(above, most), above, most);
+  const V shifted = x + hn::Set(d, kRoundingShift);
+  const V k = shifted - hn::Set(d, kRoundingShift);
+  const V power = Exp2OfFraction(d, (x - k) + lo);
   // 2^k in two steps, so that only the last may round, into the denormals. i = k + 2048 >= 0.
   const auto i = hn::BitCast(du, shifted) - hn::Set(du, uint64_t{0x4338000000000000u - 2048});
   const auto half = hn::ShiftRight<1>(i);
@@ -138,8 +158,17 @@ HWY_INLINE V Log2(D d, V x) {
   return parts.hi + parts.lo;
 }
 
-// x^y for x >= 0. A y that is the same in every lane and call costs nothing extra: its parts move
-// out of the loop.
+// y * log as parts of 26 bits and rest, so that the main product is exact.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE TwoDoubles<V> TimesLog(D d, V y, TwoDoubles<V> log) {
+  const V y_high = CutTo26Bits(d, y);
+  const V y_low = y - y_high;
+  const V log_high = CutTo26Bits(d, log.hi);
+  const V log_low = (log.hi - log_high) + log.lo;
+  return {y_high * log_high, y_low * log_high + y * log_low};
+}
+
+// x^y for x >= 0. What depends on y alone moves out of a loop in which y stays.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Pow(D d, V x, V y) {
   const V zero = hn::Zero(d);
@@ -147,126 +176,18 @@ HWY_INLINE V Pow(D d, V x, V y) {
   const V least = hn::Set(d, -0x1p64);
   const V above = hn::IfThenElse(hn::Gt(y, least), y, least);
   const V power = hn::IfThenElse(hn::Lt(above, most), above, most);
-  const V power_high = CutTo26Bits(d, power);
-  const V power_low = power - power_high;
-  const TwoDoubles<V> log = Log2Parts(d, x);
-  const V log_high = CutTo26Bits(d, log.hi);
-  const V log_low = (log.hi - log_high) + log.lo;
-  const V high = power_high * log_high;
-  const V low = power_low * log_high + power * log_low;
-  const V result = Exp2Parts(d, high, low);
+  const TwoDoubles<V> product = TimesLog(d, power, Log2Parts(d, x));
+  const V result = Exp2Parts(d, product.hi, product.lo);
   const V at_zero = hn::IfThenElseZero(hn::Eq(y, zero), hn::Set(d, 1.0));
   return hn::IfThenElse(hn::Gt(x, zero), result, at_zero);
 }
 
-// Both at once, |x| <= 1e6; larger x: both 0.
+// Pow without its guards, a fifth cheaper: the same bits where x and x^y are normal numbers and x >
+// 0; elsewhere anything (never a trap).
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE void SinCos(D d, V x, V& sin, V& cos) {
-  const hn::RebindToUnsigned<D> du;
-  const V one = hn::Set(d, 1.0);
-  // x = k pi/2 + r + t, |r| <= pi/4 or a little more (Cody and Waite: pi/2 as 33 + 33 + 53 bits).
-  const V shifted = x * hn::Set(d, 0x1.45f306dc9c883p-1) + hn::Set(d, kRoundingShift);
-  const V k = shifted - hn::Set(d, kRoundingShift);
-  const V first = x - k * hn::Set(d, 0x1.921fb544p+0);
-  const V second_part = k * hn::Set(d, 0x1.0b4611a6p-34);
-  const V second = first - second_part;
-  const V second_rest = (first - second) - second_part;
-  const V third_part = k * hn::Set(d, 0x1.3198a2e037073p-69);
-  const V r = second - third_part;
-  const V t = ((second - r) - third_part) + second_rest;
-  const V z = r * r;
-  const V zz = z * z;
-  const V sin_tail =
-      (hn::Set(d, 0x1.111111110f880p-7) +
-       zz * (hn::Set(d, 0x1.71de357865299p-19) + zz * hn::Set(d, 0x1.5d932b44c83cep-33))) +
-      z * (hn::Set(d, -0x1.a01a019c125bdp-13) + zz * hn::Set(d, -0x1.ae5e66c7e2de1p-26));
-  const V cube = z * r;
-  const V half = hn::Set(d, .5);
-  const V sin_r =
-      r - ((z * (half * t - cube * sin_tail) - t) - cube * hn::Set(d, -0x1.5555555555549p-3));
-  const V cos_tail =
-      (hn::Set(d, 0x1.555555555554cp-5) +
-       zz * (hn::Set(d, 0x1.a01a019cb263ep-16) + zz * hn::Set(d, 0x1.1ee9ec414b1d7p-29))) +
-      z * (hn::Set(d, -0x1.6c16c16c15184p-10) +
-           zz * (hn::Set(d, -0x1.27e4f80a6da36p-22) + zz * hn::Set(d, -0x1.8faecba1e7ae8p-37)));
-  const V half_z = half * z;
-  const V near_one = one - half_z;
-  const V cos_r = near_one + (((one - near_one) - half_z) + (zz * cos_tail - r * t));
-  // The low two bits of k tell which of the two, and the sign.
-  const auto quadrant = hn::BitCast(du, shifted);
-  const auto bit0 = hn::Set(du, uint64_t{1});
-  const auto swap = hn::RebindMask(d, hn::Eq(hn::And(quadrant, bit0), bit0));
-  const auto bit1 = hn::Set(du, uint64_t{2});
-  const auto sin_sign = hn::ShiftLeft<62>(hn::And(quadrant, bit1));
-  const auto cos_sign = hn::ShiftLeft<62>(hn::And(quadrant + bit0, bit1));
-  const V sin_value = hn::IfThenElse(swap, cos_r, sin_r);
-  const V cos_value = hn::IfThenElse(swap, sin_r, cos_r);
-  const auto in_range = hn::Le(hn::Abs(x), hn::Set(d, 1e6));
-  sin = hn::IfThenElseZero(in_range, hn::BitCast(d, hn::Xor(hn::BitCast(du, sin_value), sin_sign)));
-  cos = hn::IfThenElseZero(in_range, hn::BitCast(d, hn::Xor(hn::BitCast(du, cos_value), cos_sign)));
-}
-
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Sin(D d, V x) {
-  V sin;
-  V cos;
-  SinCos(d, x, sin, cos);
-  return sin;
-}
-
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Cos(D d, V x) {
-  V sin;
-  V cos;
-  SinCos(d, x, sin, cos);
-  return cos;
-}
-
-// The angle of (x, y), in -pi..pi; zeros have no sign here; (0, 0) gives 0.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Atan2(D d, V y, V x) {
-  const V zero = hn::Zero(d);
-  const V one = hn::Set(d, 1.0);
-  const V ax = hn::Abs(x);
-  const V ay = hn::Abs(y);
-  const auto steep = hn::Gt(ay, ax);
-  const V large = hn::IfThenElse(steep, ay, ax);
-  const V small = hn::IfThenElse(steep, ax, ay);
-  const V scale = hn::IfThenElse(hn::Gt(large, hn::Set(d, 0x1p1000)), hn::Set(d, 0x1p-100), one);
-  const V b = large * scale;
-  const V a = small * scale;
-  // atan(a / b) = pi/4 + atan((a - b) / (a + b)) beyond tan(pi/8).
-  const auto wide = hn::Gt(a, b * hn::Set(d, 0x1.a827999fcef32p-2));
-  const V numerator = hn::IfThenElse(wide, a - b, a);
-  const V sum = hn::IfThenElse(wide, a + b, b);
-  const V denominator = hn::IfThenElse(hn::Gt(sum, zero), sum, one);
-  const V q = numerator / denominator;
-  const V z = q * q;
-  const V zz = z * z;
-  const V even = hn::Set(d, -0x1.555555555553dp-2) +
-                 zz * (hn::Set(d, -0x1.24924922b1716p-3) +
-                       zz * (hn::Set(d, -0x1.745cf90f14940p-4) +
-                             zz * (hn::Set(d, -0x1.10ebe0fdac9e7p-4) +
-                                   zz * (hn::Set(d, -0x1.9cdd0f9cab36fp-5) +
-                                         zz * hn::Set(d, -0x1.25a28e130d04bp-6)))));
-  const V odd =
-      hn::Set(d, 0x1.99999999958f7p-3) +
-      zz * (hn::Set(d, 0x1.c71c70e7c3fb3p-4) +
-            zz * (hn::Set(d, 0x1.3b111cae15b4bp-4) +
-                  zz * (hn::Set(d, 0x1.df1199eef1287p-5) + zz * hn::Set(d, 0x1.37ef9c573ad18p-5))));
-  const V tail = (q * z) * (even + z * odd);
-  // turn + (q + tail), or its mirror images, with turn in two parts.
-  const V quarter = hn::Set(d, 0x1.921fb54442d18p-1);
-  const V quarter_low = hn::Set(d, 0x1.1a62633145c07p-55);
-  const V low = hn::IfThenElseZero(wide, quarter_low) + tail;
-  const V angle = hn::IfThenElseZero(wide, quarter) + (q + low);
-  const V right = hn::Set(d, 0x1.921fb54442d18p+0);
-  const V right_low = hn::Set(d, 0x1.1a62633145c07p-54);
-  const V first = hn::IfThenElse(steep, right - (angle - right_low), angle);
-  const V straight = hn::Set(d, 0x1.921fb54442d18p+1);
-  const V straight_low = hn::Set(d, 0x1.1a62633145c07p-53);
-  const V half_plane = hn::IfThenElse(hn::Lt(x, zero), straight - (first - straight_low), first);
-  return hn::IfThenElse(hn::Lt(y, zero), zero - half_plane, half_plane);
+HWY_INLINE V PowOfNormal(D d, V x, V y) {
+  const TwoDoubles<V> product = TimesLog(d, y, Log2OfNormal(d, x));
+  return Exp2ToNormal(d, product.hi, product.lo);
 }
 
 }  // namespace HWY_NAMESPACE
