@@ -1,10 +1,255 @@
 #include "engine/fractal/coast.h"
 
-namespace fjord {
+#include <cmath>
+#include <map>
+#include <string>
 
-Result<std::unique_ptr<PreparedFractal>> PrepareCoast(CoarseShape, const FractalSettings&,
-                                                      const AdaptiveView*) {
-  return MakeError(ErrorCode::kInternal, "coast is not built in");
+#include "engine/fractal/coast_batch.h"
+#include "engine/fractal/coast_pieces.h"
+#include "engine/fractal/registry.h"
+
+namespace fjord {
+namespace {
+
+// A piece that is cut inward leaves each half at least this share of its area (an undisplaced cut
+// leaves a half).
+constexpr double kLeastShare = .125;
+
+// Twice the area of a, b, c, counted positive where they turn left about n.
+double Turn(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& n) {
+  return glm::dot(glm::cross(b - a, c - a), n);
+}
+
+// A piece on its way down, with its border edge as a line.
+struct Node {
+  LineSegment edge;
+  CoastVertex o;
+  Vec3 normal_s;
+  Vec3 normal_e;
+};
+
+// What a cut makes: the displaced point, and the undisplaced one where it stays as an apex.
+struct Cut {
+  CoastVertex p;
+  CoastVertex m;
+  bool outward = false;
+};
+
+CoastVertex Start(const Node& n) { return {n.edge.a, n.normal_s, true}; }
+CoastVertex End(const Node& n) { return {n.edge.b, n.normal_e, true}; }
+
+Cut MakeCut(const LineRules& rules, const Node& node, const LineFrame& frame,
+            const LineRules::Size& size) {
+  const LineHalf half = rules.Halve(node.edge, frame, size);
+  const Vec3& s = node.edge.a.position;
+  const Vec3& e = node.edge.b.position;
+  const Vec3& o = node.o.line.position;
+  Cut cut;
+  cut.p = {half.vertex, Unit(node.normal_s + node.normal_e, node.normal_s), true};
+  cut.outward = Turn(s, half.vertex.position, e, frame.plane) > 1e-12 * glm::dot(e - s, e - s);
+  if (!cut.outward) {
+    // The areas of (s,p,o) and (p,e,o) are linear in the offset: go as far as both stay.
+    const double least = kLeastShare * Turn(s, e, o, frame.plane);
+    double share = 1;
+    for (const auto& [a, b] : {std::pair(s, o), std::pair(o, e)}) {
+      const double unmoved = Turn(b, a, half.middle, frame.plane);
+      const double moved = Turn(b, a, half.vertex.position, frame.plane);
+      if (moved < least) {
+        const double most = unmoved > least ? (unmoved - least) / (unmoved - moved) : 0;
+        share = most < share ? most : share;
+      }
+    }
+    if (share < 1) {
+      cut.p.line.position = half.middle + half.vertex.direction * (half.offset * share);
+    }
+    return cut;
+  }
+  cut.m = cut.p;
+  cut.m.coast = false;
+  cut.m.line.position = half.middle;
+  cut.m.line.id = {DrawBits(half.vertex.id.lo, 31), Mix64(half.vertex.id.hi ^ 31)};
+  return cut;
+}
+
+class PreparedCoast : public PreparedFractal {
+ public:
+  PreparedCoast(CoastMesh mesh, LineRules rules, bool colored)
+      : mesh_(std::move(mesh)), rules_(std::move(rules)), colored_(colored) {}
+
+  size_t RootCount() const override { return mesh_.triangles.size(); }
+
+  Ball Bound(size_t root) const override {
+    const Triangle& t = mesh_.triangles[root];
+    const Vec3 corner[3] = {mesh_.vertices[t[0]].line.position, mesh_.vertices[t[1]].line.position,
+                            mesh_.vertices[t[2]].line.position};
+    Ball ball;
+    ball.center = (corner[0] + corner[1] + corner[2]) / 3.0;
+    for (const Vec3& c : corner) {
+      const double distance = Length(c - ball.center) * (1 + 1e-12);
+      ball.radius = distance > ball.radius ? distance : ball.radius;
+    }
+    double reach = 0;
+    for (const CoastPiece& piece : mesh_.Pieces(root)) {
+      const double its = Reach(piece);
+      reach = its > reach ? its : reach;
+    }
+    ball.radius += reach;
+    return ball;
+  }
+
+  StreamStats Stream(size_t root, StreamSink& sink, size_t patch_hint) const override {
+    StreamStats stats;
+    TriangleBatch batch(sink, patch_hint, colored_);
+    Walk(
+        root, &stats,
+        [&](const Vec3& a, const Vec3& b, const Vec3& c, double reach) {
+          return sink.Wants(a, b, c, reach);
+        },
+        [&](const CoastVertex& a, const CoastVertex& b, const CoastVertex& c) {
+          batch.Add(a, b, c);
+          return true;
+        });
+    batch.Flush();
+    return stats;
+  }
+
+  Result<WeldedShape> Weld(const WeldLimits& limits) const override {
+    WeldedShape shape;
+    std::map<Identity, uint32_t> made;  // of the root at hand: all others share coarse ones only
+    const auto add = [&](const CoastVertex& v) {
+      const auto [place, is_new] =
+          made.emplace(v.line.id, static_cast<uint32_t>(shape.mesh.points.size()));
+      if (is_new) {
+        shape.mesh.points.push_back(v.line.position);
+        shape.identity.push_back(v.line.id);
+        shape.level.push_back(static_cast<uint8_t>(v.line.level));
+        shape.direction.push_back(v.normal);
+        shape.coast.push_back(v.coast ? 1 : 0);
+        if (colored_) {
+          shape.mesh.colors.push_back(v.line.color);
+        }
+      }
+      return place->second;
+    };
+    for (const CoastVertex& v : mesh_.vertices) {
+      add(v);
+    }
+    for (size_t root = 0; root < RootCount(); ++root) {
+      made.clear();
+      for (const uint32_t v : mesh_.triangles[root]) {
+        made.emplace(mesh_.vertices[v].line.id, v);
+      }
+      StreamStats stats;
+      const bool complete = Walk(
+          root, &stats, [](const Vec3&, const Vec3&, const Vec3&, double) { return true; },
+          [&](const CoastVertex& a, const CoastVertex& b, const CoastVertex& c) {
+            const uint32_t corners[3] = {add(a), add(b), add(c)};
+            shape.mesh.AddFace(corners);
+            return shape.mesh.points.size() <= limits.max_points;
+          });
+      if (!complete) {
+        return MakeError(ErrorCode::kLimit, "the coast has more than " +
+                                                std::to_string(limits.max_points) +
+                                                " points; choose a coarser fineness");
+      }
+    }
+    return shape;
+  }
+
+ private:
+  double Reach(const CoastPiece& piece) const {
+    return piece.coast ? rules_.Reach({piece.s.line, piece.e.line, piece.rest2, 0}) : 0;
+  }
+
+  // Depth-first, along the border. wants(triangle, reach): is anything of it wanted; asked of large
+  // ones only. take(a, b, c) returns false to stop; then so does Walk.
+  template <typename Wants, typename Take>
+  bool Walk(size_t root, StreamStats* stats, const Wants& wants, const Take& take) const {
+    for (const CoastPiece& piece : mesh_.Pieces(root)) {
+      if (!wants(piece.s.line.position, piece.e.line.position, piece.o.line.position,
+                 Reach(piece))) {
+        ++stats->culled;
+        continue;
+      }
+      if (!piece.coast) {
+        ++stats->triangles;
+        if (!take(piece.s, piece.e, piece.o)) {
+          return false;
+        }
+        continue;
+      }
+      if (!WalkPiece(piece, stats, wants, take)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  template <typename Wants, typename Take>
+  bool WalkPiece(const CoastPiece& piece, StreamStats* stats, const Wants& wants,
+                 const Take& take) const {
+    std::vector<Node> stack{
+        {{piece.s.line, piece.e.line, piece.rest2, 0}, piece.o, piece.s.normal, piece.e.normal}};
+    while (!stack.empty()) {
+      const Node node = stack.back();
+      stack.pop_back();
+      const LineRules::Size size = rules_.Measure(node.edge);
+      const uint32_t level = node.edge.level();
+      if (size.IsLarge() && level > 0 &&
+          !wants(node.edge.a.position, node.edge.b.position, node.o.line.position,
+                 rules_.Reach(node.edge))) {
+        ++stats->culled;
+        continue;
+      }
+      if (!size.Splits()) {
+        ++stats->triangles;
+        stats->depth = level > stats->depth ? level : stats->depth;
+        if (!take(Start(node), End(node), node.o)) {
+          return false;
+        }
+        continue;
+      }
+      ++stats->midpoints;
+      const Cut cut = MakeCut(rules_, node, piece.frame, size);
+      if (cut.outward) {
+        stats->triangles += 2;
+        if (!take(Start(node), cut.m, node.o) || !take(cut.m, End(node), node.o)) {
+          return false;
+        }
+      }
+      const CoastVertex& apex = cut.outward ? cut.m : node.o;
+      stack.push_back({rules_.Second(node.edge, cut.p.line), apex, cut.p.normal, node.normal_e});
+      stack.push_back({rules_.First(node.edge, cut.p.line), apex, node.normal_s, cut.p.normal});
+    }
+    return true;
+  }
+
+  CoastMesh mesh_;
+  LineRules rules_;
+  bool colored_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<PreparedFractal>> PrepareCoast(CoarseShape shape,
+                                                      const FractalSettings& settings,
+                                                      const AdaptiveView* view) {
+  const MethodInfo& method = *FindFractalMethod("coast");
+  const Errors errors = CheckSettings(method, settings);
+  if (!errors.empty()) {
+    return errors.front();
+  }
+  const FractalSettings resolved = ResolveSettings(method, settings);
+  Result<LineRules> rules = LineRules::Make(resolved, view);
+  if (!rules.ok()) {
+    return rules.error();
+  }
+  Result<CoastMesh> mesh = MakeCoastMesh(shape, resolved);
+  if (!mesh.ok()) {
+    return mesh.error();
+  }
+  return std::unique_ptr<PreparedFractal>(
+      std::make_unique<PreparedCoast>(std::move(*mesh), std::move(*rules), !shape.colors.empty()));
 }
 
 }  // namespace fjord
