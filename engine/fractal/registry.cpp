@@ -5,14 +5,10 @@
 #include "engine/base/random.h"
 #include "engine/fractal/coast.h"
 #include "engine/fractal/curve.h"
+#include "engine/fractal/surface.h"
 
 namespace fjord {
 namespace {
-
-Result<std::unique_ptr<PreparedFractal>> PrepareNothing(CoarseShape, const FractalSettings&,
-                                                        const AdaptiveView*) {
-  return MakeError(ErrorCode::kInternal, "this method is not built in");
-}
 
 constexpr uint32_t kMaxLevel = 40;
 constexpr double kLowestSimilarH = .06;
@@ -53,7 +49,7 @@ std::span<const MethodInfo> Methods() {
        .variants = kAllVariants,
        .splits = kAllSplits,
        .additions = false,
-       .prepare = PrepareNothing},
+       .prepare = PrepareSurface},
       {.name = "coast",
        .version = 1,
        .summary = "meshes whose border becomes a coastline, cut into triangles inside it",

@@ -1,0 +1,212 @@
+// What the patch kernels share, compiled once per SIMD target: 64-byte vertices turned into columns
+// and back in registers, and the split rule on lanes. Lane for lane the same operations at every
+// width; no fused multiply-add, no Min or Max (exact_math-inl.h says why).
+
+#if defined(FJORD_ENGINE_FRACTAL_PATCH_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FJORD_ENGINE_FRACTAL_PATCH_LANES_INL_H_
+#undef FJORD_ENGINE_FRACTAL_PATCH_LANES_INL_H_
+#else
+#define FJORD_ENGINE_FRACTAL_PATCH_LANES_INL_H_
+#endif
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/fractal/patch.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fjord {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DF = hn::ScalableTag<double>;
+using DU = hn::RebindToUnsigned<DF>;
+using DI = hn::RebindToSigned<DF>;
+using DN = hn::Rebind<uint32_t, DF>;  // as many 32-bit lanes as doubles
+using DS = hn::Rebind<float, DF>;
+using VF = hn::Vec<DF>;
+using VU = hn::Vec<DU>;
+using VN = hn::Vec<DN>;
+using MF = hn::Mask<DF>;
+
+HWY_INLINE VF Larger(VF a, VF b) { return hn::IfThenElse(hn::Gt(a, b), a, b); }
+
+// Eight columns of N vertices: x y z, direction x y z, id, and the word of two floats.
+struct Columns {
+  VF v[8];
+};
+
+#if HWY_TARGET != HWY_SCALAR
+// 2x2 within each pair of lanes.
+HWY_INLINE void TransposePairs(VF& a, VF& b) {
+  const DF d;
+  const VF low = hn::InterleaveLower(d, a, b);
+  b = hn::InterleaveUpper(d, a, b);
+  a = low;
+}
+#endif
+
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+// r[i] holds row i; afterwards column i. Its own inverse.
+HWY_INLINE void Transpose(VF* HWY_RESTRICT r) {
+  const DF d;
+  VF t[8];
+  for (int i = 0; i < 8; i += 2) {
+    t[i] = hn::InterleaveLower(d, r[i], r[i + 1]);
+    t[i + 1] = hn::InterleaveUpper(d, r[i], r[i + 1]);
+  }
+  // t[2 i + odd]: blocks of two rows. Column 2 c + odd takes block c of rows 2 i, 2 i + 1.
+  for (int odd = 0; odd < 2; ++odd) {
+    const __m512d a = t[0 + odd].raw, b = t[2 + odd].raw, c = t[4 + odd].raw, e = t[6 + odd].raw;
+    const __m512d ab01 = _mm512_shuffle_f64x2(a, b, 0x44), ab23 = _mm512_shuffle_f64x2(a, b, 0xee);
+    const __m512d ce01 = _mm512_shuffle_f64x2(c, e, 0x44), ce23 = _mm512_shuffle_f64x2(c, e, 0xee);
+    r[0 + odd] = VF{_mm512_shuffle_f64x2(ab01, ce01, 0x88)};
+    r[2 + odd] = VF{_mm512_shuffle_f64x2(ab01, ce01, 0xdd)};
+    r[4 + odd] = VF{_mm512_shuffle_f64x2(ab23, ce23, 0x88)};
+    r[6 + odd] = VF{_mm512_shuffle_f64x2(ab23, ce23, 0xdd)};
+  }
+}
+HWY_INLINE Columns LoadVertices(const StreamVertex* vertex, const uint32_t* index) {
+  const DF d;
+  Columns c;
+  for (int i = 0; i < 8; ++i) c.v[i] = hn::LoadU(d, &vertex[index[i]].position.x);
+  Transpose(c.v);
+  return c;
+}
+HWY_INLINE void StoreVertices(Columns c, StreamVertex* vertex) {
+  const DF d;
+  Transpose(c.v);
+  for (int i = 0; i < 8; ++i) hn::StoreU(c.v[i], d, &vertex[i].position.x);
+}
+#elif HWY_TARGET == HWY_AVX2
+HWY_INLINE void Transpose4(VF& a, VF& b, VF& c, VF& e) {
+  const DF d;
+  TransposePairs(a, b);
+  TransposePairs(c, e);
+  const VF a1 = hn::ConcatUpperUpper(d, c, a), b1 = hn::ConcatUpperUpper(d, e, b);
+  a = hn::ConcatLowerLower(d, c, a);
+  b = hn::ConcatLowerLower(d, e, b);
+  c = a1;
+  e = b1;
+}
+HWY_INLINE Columns LoadVertices(const StreamVertex* vertex, const uint32_t* index) {
+  const DF d;
+  Columns c;
+  for (int i = 0; i < 4; ++i) {
+    c.v[i] = hn::LoadU(d, &vertex[index[i]].position.x);
+    c.v[4 + i] = hn::LoadU(d, &vertex[index[i]].direction.y);
+  }
+  Transpose4(c.v[0], c.v[1], c.v[2], c.v[3]);
+  Transpose4(c.v[4], c.v[5], c.v[6], c.v[7]);
+  return c;
+}
+HWY_INLINE void StoreVertices(Columns c, StreamVertex* vertex) {
+  const DF d;
+  Transpose4(c.v[0], c.v[1], c.v[2], c.v[3]);
+  Transpose4(c.v[4], c.v[5], c.v[6], c.v[7]);
+  for (int i = 0; i < 4; ++i) {
+    hn::StoreU(c.v[i], d, &vertex[i].position.x);
+    hn::StoreU(c.v[4 + i], d, &vertex[i].direction.y);
+  }
+}
+#elif HWY_TARGET != HWY_SCALAR
+// Two lanes.
+HWY_INLINE Columns LoadVertices(const StreamVertex* vertex, const uint32_t* index) {
+  const DF d;
+  Columns c;
+  const double* a = &vertex[index[0]].position.x;
+  const double* b = &vertex[index[1]].position.x;
+  for (int i = 0; i < 8; i += 2) {
+    c.v[i] = hn::LoadU(d, a + i);
+    c.v[i + 1] = hn::LoadU(d, b + i);
+    TransposePairs(c.v[i], c.v[i + 1]);
+  }
+  return c;
+}
+HWY_INLINE void StoreVertices(Columns c, StreamVertex* vertex) {
+  const DF d;
+  double* a = &vertex[0].position.x;
+  double* b = &vertex[1].position.x;
+  for (int i = 0; i < 8; i += 2) {
+    TransposePairs(c.v[i], c.v[i + 1]);
+    hn::StoreU(c.v[i], d, a + i);
+    hn::StoreU(c.v[i + 1], d, b + i);
+  }
+}
+#else
+HWY_INLINE Columns LoadVertices(const StreamVertex* vertex, const uint32_t* index) {
+  const DF d;
+  Columns c;
+  const double* a = &vertex[index[0]].position.x;
+  for (int i = 0; i < 8; ++i) c.v[i] = hn::LoadU(d, a + i);
+  return c;
+}
+HWY_INLINE void StoreVertices(Columns c, StreamVertex* vertex) {
+  const DF d;
+  double* a = &vertex[0].position.x;
+  for (int i = 0; i < 8; ++i) hn::StoreU(c.v[i], d, a + i);
+}
+#endif
+
+// The word of two floats: stretch comes first in memory.
+template <bool kSecond>
+HWY_INLINE VF FloatOf(VF word) {
+  const DF d;
+  const DU du;
+  const VU bits = hn::BitCast(du, word);
+  constexpr bool kHigh = kSecond == (std::endian::native == std::endian::little);
+  const VU half = kHigh ? hn::ShiftRight<32>(bits) : hn::And(bits, hn::Set(du, 0xffffffffu));
+  return hn::PromoteTo(d, hn::BitCast(DS(), hn::TruncateTo(DN(), half)));
+}
+
+HWY_INLINE VF FloatsWord(hn::Vec<DS> first, hn::Vec<DS> second) {
+  const DF d;
+  const DU du;
+  const VU a = hn::PromoteTo(du, hn::BitCast(DN(), first));
+  const VU b = hn::PromoteTo(du, hn::BitCast(DN(), second));
+  constexpr bool kLittle = std::endian::native == std::endian::little;
+  return hn::BitCast(d,
+                     kLittle ? hn::Or(a, hn::ShiftLeft<32>(b)) : hn::Or(b, hn::ShiftLeft<32>(a)));
+}
+
+// Squared distance from the eye to the middle of an edge with these ends.
+HWY_INLINE VF MiddleDistance2(VF a, VF b, VF length2) {
+  const DF d;
+  return (a + b) * hn::Set(d, .5) - length2 * hn::Set(d, .25);
+}
+
+// The right side of the split rule (SurfaceRules) at that distance.
+HWY_INLINE VF LongSide(const SurfaceRules& rules, VF middle2) {
+  const DF d;
+  if (rules.eye_radius > 0) {
+    const VF distance = hn::Sqrt(hn::IfThenElseZero(hn::Gt(middle2, hn::Zero(d)), middle2)) -
+                        hn::Set(d, rules.eye_radius);
+    const VF clear = Larger(distance, hn::Set(d, rules.near));
+    return hn::Set(d, rules.slope) * (clear * clear);
+  }
+  return Larger(hn::Set(d, rules.slope) * middle2, hn::Set(d, rules.floor));
+}
+
+HWY_INLINE VF WithShortSign(VF length2, MF is_long) {
+  const DF d;
+  return hn::IfThenElse(is_long, length2, hn::Or(length2, hn::Set(d, -0.0)));
+}
+
+// length2 with its sign set where short. Ends' squared eye distances a, b are read by distance
+// only.
+HWY_INLINE VF Flagged(const SurfaceRules& rules, VF length2, VF a, VF b) {
+  const DF d;
+  const VF left = length2 * hn::Set(d, rules.length_scale);
+  return WithShortSign(length2, hn::Gt(left, LongSide(rules, MiddleDistance2(a, b, length2))));
+}
+
+HWY_INLINE bool ByDistance(const SurfaceRules& rules) { return rules.slope > 0; }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace fjord
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target guard

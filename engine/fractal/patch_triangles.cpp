@@ -1,0 +1,329 @@
+// Triangles by how many long edges they have (S21), N in lock-step: sorted first, so that no lane
+// waits for another case.
+//
+// Templates, corners 0 1 2 turned so that the long edges come first, m_k the midpoint of edge k:
+//   one     (0 m0 2) (m0 1 2)
+//   two     (m0 1 m1), and of the rest the diagonal from the midpoint of the longer edge; equal
+//           edges: from the one with the smaller sum of identities
+//   three   (0 m0 m2) (m0 1 m1) (m2 m1 2) (m0 m1 m2)
+#include "engine/fractal/patch.h"
+
+// The order matters.
+// clang-format off
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/fractal/patch_triangles.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+
+#include "hwy/highway.h"
+#include "engine/fractal/patch_lanes-inl.h"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace fjord {
+namespace HWY_NAMESPACE {
+
+constexpr size_t kLanes = hn::MaxLanes(DF());
+constexpr size_t kBlock = 256;  // triangles sorted at a time
+
+// Triangles of one case: corners, edges, slots of the long edges, site.
+struct CaseList {
+  HWY_ALIGN uint32_t corner[3][kBlock + 16];
+  HWY_ALIGN uint32_t edge[3][kBlock + 16];
+  HWY_ALIGN uint32_t slot[3][kBlock + 16];
+  HWY_ALIGN uint32_t site[kBlock + 16];
+  size_t count;
+};
+
+using D32 = hn::ScalableTag<uint32_t>;
+using V32 = hn::Vec<D32>;
+using M32 = hn::Mask<D32>;
+
+HWY_INLINE V32 Turned(V32 by0, V32 by1, V32 by2, M32 turn1, M32 turn2) {
+  return hn::IfThenElse(turn2, by2, hn::IfThenElse(turn1, by1, by0));
+}
+
+// Appends the lanes of `mask` of each column.
+HWY_INLINE void Append(V32 v, M32 mask, uint32_t* to) {
+  hn::StoreU(hn::Compress(v, mask), D32(), to);
+}
+
+HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end,
+                          CaseList* lists) {
+  const D32 d;
+  const hn::RebindToSigned<D32> di;
+  constexpr size_t kLanes32 = hn::MaxLanes(D32());
+  const V32 index_bits = hn::Set(d, ~Patch::kFlip), short_slot = hn::Set(d, Patch::kShort);
+  for (int i = 0; i < 3; ++i) lists[i].count = 0;
+  const PatchTriangles& from = patch.triangles;
+  for (size_t t = begin; t < end; t += kLanes32) {
+    const M32 valid = hn::FirstN(d, end - t);
+    V32 v[3], e[3], s[3];
+    M32 split[3];
+    for (int k = 0; k < 3; ++k) {
+      v[k] = hn::LoadU(d, &from.corner[k][t]);
+      e[k] = hn::IfThenElseZero(valid, hn::LoadU(d, &from.edge[k][t]));
+      const V32 index = hn::And(e[k], index_bits);
+      s[k] = hn::GatherIndex(d, patch.edge_slot.data(), hn::BitCast(di, index));
+      split[k] = hn::And(valid, hn::Ne(s[k], short_slot));
+    }
+    const M32 any = hn::Or(split[0], hn::Or(split[1], split[2]));
+    const M32 leaf = hn::AndNot(any, valid);
+    for (int k = 0; k < 3; ++k) Append(v[k], leaf, &patch.leaf[k][patch.leaf_count]);
+    patch.leaf_count += hn::CountTrue(d, leaf);
+
+    const M32 three = hn::And(split[0], hn::And(split[1], split[2]));
+    const M32 both01 = hn::And(split[0], split[1]), both12 = hn::And(split[1], split[2]),
+              both20 = hn::And(split[2], split[0]);
+    const M32 two = hn::AndNot(three, hn::Or(both01, hn::Or(both12, both20)));
+    const M32 one = hn::AndNot(hn::Or(two, three), any);
+    // Turn by 1 brings edge 1 to the front, by 2 edge 2.
+    const M32 turn1 = hn::Or(hn::And(one, split[1]), hn::And(two, both12));
+    const M32 turn2 = hn::Or(hn::And(one, split[2]), hn::And(two, both20));
+    V32 tv[3], te[3], ts[3];
+    for (int k = 0; k < 3; ++k) {
+      const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+      tv[k] = Turned(v[k], v[k1], v[k2], turn1, turn2);
+      te[k] = Turned(e[k], e[k1], e[k2], turn1, turn2);
+      ts[k] = Turned(s[k], s[k1], s[k2], turn1, turn2);
+    }
+    const M32 masks[3] = {one, two, three};
+    for (int c = 0; c < 3; ++c) {
+      CaseList& list = lists[c];
+      for (int k = 0; k < 3; ++k) {
+        Append(tv[k], masks[c], &list.corner[k][list.count]);
+        Append(te[k], masks[c], &list.edge[k][list.count]);
+        if (k <= c) Append(ts[k], masks[c], &list.slot[k][list.count]);
+      }
+      if (rules.sites) Append(hn::LoadU(d, &from.site[t]), masks[c], &list.site[list.count]);
+      list.count += hn::CountTrue(d, masks[c]);
+    }
+  }
+}
+
+// N triangles of one case on their way to children.
+class Expander {
+ public:
+  Expander(const SurfaceRules& rules, Patch& patch, const CaseList& list)
+      : rules_(rules), patch_(patch), list_(list) {}
+
+  void One() {
+    for (size_t i = 0; i < list_.count; i += kLanes) {
+      Load(i, 1);
+      const VF median = Median(length_[1], length_[2], length_[0]);
+      const VN inner = AddEdge(m_[0], v_[2], median);
+      AddTriangle(v_[0], m_[0], v_[2], First(0), inner, e_[2]);
+      AddTriangle(m_[0], v_[1], v_[2], Second(0), e_[1], Back(inner));
+    }
+  }
+
+  void Two() {
+    for (size_t i = 0; i < list_.count; i += kLanes) {
+      Load(i, 2);
+      const MF first_longer = FirstLonger();
+      const hn::Mask<DN> first = Narrow(first_longer);
+      const VF cut2 = length_[2] * hn::Set(DF(), .25);
+      const VF diagonal2 = hn::IfThenElse(first_longer, Median(length_[1], length_[2], length_[0]),
+                                          Median(length_[0], length_[2], length_[1]));
+      const VN cut = AddEdge(m_[0], m_[1], cut2);
+      const VN from = hn::IfThenElse(first, m_[0], v_[0]);
+      const VN to = hn::IfThenElse(first, v_[2], m_[1]);
+      const VN diagonal = AddEdge(from, to, diagonal2);
+      const VN first0 = First(0), second1 = Second(1);
+      AddTriangle(m_[0], v_[1], m_[1], Second(0), First(1), Back(cut));
+      AddTriangle(from, hn::IfThenElse(first, m_[1], m_[0]), to, hn::IfThenElse(first, cut, first0),
+                  hn::IfThenElse(first, second1, cut), Back(diagonal));
+      AddTriangle(v_[0], hn::IfThenElse(first, m_[0], m_[1]), v_[2],
+                  hn::IfThenElse(first, first0, diagonal), hn::IfThenElse(first, diagonal, second1),
+                  e_[2]);
+    }
+  }
+
+  void Three() {
+    const VF quarter = hn::Set(DF(), .25);
+    for (size_t i = 0; i < list_.count; i += kLanes) {
+      Load(i, 3);
+      const VN p0 = AddEdge(m_[0], m_[1], length_[2] * quarter);
+      const VN p1 = AddEdge(m_[1], m_[2], length_[0] * quarter);
+      const VN p2 = AddEdge(m_[2], m_[0], length_[1] * quarter);
+      AddTriangle(v_[0], m_[0], m_[2], First(0), Back(p2), Second(2));
+      AddTriangle(m_[0], v_[1], m_[1], Second(0), First(1), Back(p0));
+      AddTriangle(m_[2], m_[1], v_[2], Back(p1), Second(1), First(2));
+      AddTriangle(m_[0], m_[1], m_[2], p0, p1, p2);
+    }
+  }
+
+ private:
+  void Load(size_t i, int long_edges) {
+    const DN dn;
+    lanes_ = list_.count - i < kLanes ? list_.count - i : kLanes;
+    const hn::Mask<DN> valid = hn::FirstN(dn, lanes_);
+    const VN midpoints = hn::Set(dn, static_cast<uint32_t>(patch_.midpoints));
+    for (int k = 0; k < 3; ++k) {
+      v_[k] = hn::IfThenElseZero(valid, hn::LoadU(dn, &list_.corner[k][i]));
+      e_[k] = hn::IfThenElseZero(valid, hn::LoadU(dn, &list_.edge[k][i]));
+      flip_[k] = hn::And(e_[k], hn::Set(dn, Patch::kFlip));
+      index_[k] = hn::AndNot(flip_[k], e_[k]);
+      length_[k] = hn::Abs(Gather(patch_.edge_length2.data(), index_[k]));
+      if (k < long_edges) {
+        slot_[k] = hn::IfThenElseZero(valid, hn::LoadU(dn, &list_.slot[k][i]));
+        m_[k] = slot_[k] + midpoints;
+      }
+    }
+    if (rules_.sites) site_ = hn::LoadU(dn, &list_.site[i]);
+  }
+
+  static VF Gather(const double* from, VN index) {
+    return hn::GatherIndex(DF(), from, hn::BitCast(DI(), hn::PromoteTo(DU(), index)));
+  }
+
+  static hn::Mask<DN> Narrow(MF mask) {
+    const DU du;
+    const VU bits = hn::BitCast(du, hn::VecFromMask(DF(), mask));
+    return hn::Ne(hn::TruncateTo(DN(), bits), hn::Zero(DN()));
+  }
+
+  static VN Back(VN edge) { return hn::Xor(edge, hn::Set(DN(), Patch::kFlip)); }
+
+  // The halves of long edge k as the triangle runs along them.
+  VN First(int k) const { return Half(k, 0); }
+  VN Second(int k) const { return Half(k, 1); }
+  VN Half(int k, size_t which) const {
+    const DN dn;
+    const VN along = hn::Set(dn, static_cast<uint32_t>(patch_.halves[which]));
+    const VN against = hn::Set(dn, static_cast<uint32_t>(patch_.halves[1 - which]));
+    const hn::Mask<DN> flipped = hn::Ne(flip_[k], hn::Zero(dn));
+    return hn::Or(slot_[k] + hn::IfThenElse(flipped, against, along), flip_[k]);
+  }
+
+  // Squared median to the middle of side c of a triangle with squared sides a, b, c.
+  static VF Median(VF a2, VF b2, VF c2) {
+    const DF d;
+    const VF sum = a2 + b2;
+    const VF median2 = ((sum + sum) - c2) * hn::Set(d, .25);
+    return hn::IfThenElseZero(hn::Gt(median2, hn::Zero(d)), median2);
+  }
+
+  // Edge 0 longer than edge 1, or equal with the smaller sum of identities.
+  MF FirstLonger() const {
+    const DF d;
+    const bool current = rules_.current();
+    const VF a = current ? Gather(patch_.edge_current2.data(), index_[0]) : length_[0];
+    const VF b = current ? Gather(patch_.edge_current2.data(), index_[1]) : length_[1];
+    const MF longer = hn::Gt(a, b);
+    const MF equal = hn::Eq(a, b);
+    if (hn::AllFalse(d, equal)) return longer;
+    HWY_ALIGN uint32_t corner[3][kLanes];
+    HWY_ALIGN uint64_t smaller[kLanes];
+    for (int k = 0; k < 3; ++k) hn::Store(v_[k], DN(), corner[k]);
+    for (size_t i = 0; i < kLanes; ++i) {
+      const uint64_t middle = patch_.vertex[corner[1][i]].id;
+      const uint64_t first = patch_.vertex[corner[0][i]].id + middle;
+      const uint64_t second = middle + patch_.vertex[corner[2][i]].id;
+      smaller[i] = first < second ? ~uint64_t{0} : 0;
+    }
+    const MF sums = hn::MaskFromVec(hn::BitCast(d, hn::Load(DU(), smaller)));
+    return hn::Or(longer, hn::And(equal, sums));
+  }
+
+  VN AddEdge(VN a, VN b, VF length2) {
+    const DN dn;
+    const size_t at = patch_.edge_count;
+    hn::StoreU(a, dn, &patch_.edge_a[at]);
+    hn::StoreU(b, dn, &patch_.edge_b[at]);
+    if (!rules_.current()) {
+      const VF zero = hn::Zero(DF());
+      const bool far = ByDistance(rules_);
+      length2 = Flagged(rules_, length2, far ? Distance2(a) : zero, far ? Distance2(b) : zero);
+    }
+    hn::StoreU(length2, DF(), &patch_.edge_length2[at]);
+    if (rules_.sites) hn::StoreU(site_, dn, &patch_.edge_site[at]);
+    patch_.edge_count += lanes_;
+    return hn::Iota(dn, static_cast<uint32_t>(at));
+  }
+
+  VF Distance2(VN index) const {
+    const DS ds;
+    const hn::RebindToSigned<DN> di;
+    const auto* floats = &patch_.vertex[0].eye_distance2;
+    const auto offset = hn::BitCast(di, hn::ShiftLeft<4>(index));
+    return hn::PromoteTo(DF(), hn::GatherIndex(ds, floats, offset));
+  }
+
+  // Runs of lanes_ entries, ascending: what is written beyond a run belongs to the next one.
+  void AddTriangle(VN a, VN b, VN c, VN ab, VN bc, VN ca) {
+    const DN dn;
+    PatchTriangles& to = patch_.next;
+    const VN corners[3] = {a, b, c};
+    const VN edges[3] = {ab, bc, ca};
+    for (int k = 0; k < 3; ++k) {
+      hn::StoreU(corners[k], dn, &to.corner[k][to.count]);
+      hn::StoreU(edges[k], dn, &to.edge[k][to.count]);
+    }
+    if (rules_.sites) hn::StoreU(site_, dn, &to.site[to.count]);
+    to.count += lanes_;
+  }
+
+  const SurfaceRules& rules_;
+  Patch& patch_;
+  const CaseList& list_;
+  size_t lanes_ = 0;
+  VN v_[3], e_[3], flip_[3], index_[3], slot_[3], m_[3], site_;
+  VF length_[3];
+};
+
+void SplitTrianglesLanes(const SurfaceRules& rules, Patch& patch) {
+  CaseList lists[3];
+  for (size_t begin = 0; begin < patch.triangles.count; begin += kBlock) {
+    const size_t left = patch.triangles.count - begin;
+    SortBlock(rules, patch, begin, begin + (left < kBlock ? left : kBlock), lists);
+    Expander(rules, patch, lists[0]).One();
+    Expander(rules, patch, lists[1]).Two();
+    Expander(rules, patch, lists[2]).Three();
+  }
+}
+
+void CollectLongEdgesLanes(Patch& patch) {
+  const size_t begin = patch.run_begin, end = patch.edge_count;
+  const double* length2 = patch.edge_length2.data();
+  uint32_t* list = patch.long_edge.data();
+  uint32_t* slot = patch.edge_slot.data();
+  size_t n = 0;
+  for (size_t i = begin; i < end; ++i) {
+    const bool is_short = PatchIsShort(length2[i]);
+    list[n] = static_cast<uint32_t>(i);
+    slot[i] = is_short ? Patch::kShort : static_cast<uint32_t>(n);
+    n += is_short ? 0 : 1;
+  }
+  patch.long_count = n;
+}
+
+void InterleaveLeavesLanes(Patch& patch) {
+  const D32 d;
+  constexpr size_t kLanes32 = hn::MaxLanes(D32());
+  for (size_t i = 0; i < patch.leaf_count; i += kLanes32) {
+    hn::StoreInterleaved3(hn::LoadU(d, &patch.leaf[0][i]), hn::LoadU(d, &patch.leaf[1][i]),
+                          hn::LoadU(d, &patch.leaf[2][i]), d, patch.leaf_triangles[i].data());
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace fjord
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fjord {
+
+HWY_EXPORT(SplitTrianglesLanes);
+HWY_EXPORT(CollectLongEdgesLanes);
+HWY_EXPORT(InterleaveLeavesLanes);
+
+void SplitTriangles(const SurfaceRules& rules, Patch& patch) {
+  HWY_DYNAMIC_DISPATCH(SplitTrianglesLanes)(rules, patch);
+}
+
+void CollectLongEdges(Patch& patch) { HWY_DYNAMIC_DISPATCH(CollectLongEdgesLanes)(patch); }
+
+void InterleaveLeaves(Patch& patch) { HWY_DYNAMIC_DISPATCH(InterleaveLeavesLanes)(patch); }
+
+}  // namespace fjord
+#endif

@@ -1,0 +1,99 @@
+// The surface method's settings worked out once an object: plain numbers that the kernels read, and
+// the bounds that follow from them (S7). Immutable after MakeSurfaceRules.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "engine/base/result.h"
+#include "engine/fractal/method.h"
+
+namespace fjord {
+
+inline constexpr uint32_t kMaxSurfaceLevel = 60;
+
+// What an input edge, or the inside of an input face, gives to all edges made on it.
+struct EdgeSite {
+  Vec3 direction{0};  // S18, S19: read where the rule is not VERTEX
+  double coast = 0;   // 1: the edge moves level (S22)
+};
+
+struct SurfaceRules {
+  Direction direction = Direction::kVertex;
+  Variant variant = Variant::kFixed;
+  Law law = Law::kAffine;
+  Split split = Split::kShot;
+  uint32_t max_level = 0;
+  bool coast = false;
+  bool sites = false;  // edges must know their EdgeSite
+
+  // Offsets.
+  double affine_scale = 0;  // sigma A c(H)
+  double half_H = 0;
+  double similar = 0;  // r
+  double coast_similar = 0;
+  std::array<double, kMaxSurfaceLevel> shih{};  // Delta_i move, i = level of the edge
+  uint32_t uniforms = 4;
+  double gaussian_scale = 0;
+  double gaussian_middle = 0;  // uniforms * 65535
+  double perturb = 0;
+
+  // An edge is long where length2 * length_scale > max(floor, slope * d2) or, with a ball of eyes,
+  // slope * max(near, distance - eye_radius)^2: the two sides of frame.proto's FrameFineness
+  // squared.
+  double length_scale = 1;
+  double floor = 0;
+  double slope = 0;
+  double near = 0;
+  double eye_radius = 0;
+  Vec3 eye{0};
+  AdaptiveView view;
+  double pixels2 = 0;
+
+  // Does the split rule read the frame's own lengths instead of the rest pose's?
+  bool current() const { return split != Split::kShot; }
+};
+
+// kInvalid for settings that are not the surface's, or a fineness that would never end.
+Result<SurfaceRules> MakeSurfaceRules(const FractalSettings& settings, const AdaptiveView* view);
+
+// What SurfaceReach reads of a triangle.
+struct ReachInput {
+  double longest_rest2 = 0;   // squared length of its longest edge in the rest pose
+  double longest_now2 = 0;    // now
+  double longest_coast2 = 0;  // of its longest coast edge, now
+  double stretch = 1;         // largest
+  double farthest2 = 0;       // largest squared eye distance of its corners
+  uint32_t level = 0;
+};
+
+// How far from the triangle anything made of it can lie: the sum over the remaining levels of the
+// largest offset, for a vertex's displacement is at most the mean of its ends' plus its own.
+//
+// affine   Lambda_k = longest rest edge at level k, e and f the largest and smallest length that is
+//          short anywhere in the triangle. A long edge halves; a three-split's inner edges are half
+//          an outer one; the median to the longer of two long edges has at most
+//          (Lambda^2 + 2 e^2) / 4, the median to a single long one (4 e^2 - f^2) / 4. So
+//          Lambda_k^2 <= Lambda^2 / 4^k + c^2, c^2 = max(2 e^2 / 3, e^2 - f^2 / 4), and as x^(H/2)
+//          is subadditive the sum of Lambda_k^H is at most Lambda^H sum 2^(-kH) + (K - 1) c^H, K
+//          levels until Lambda_k <= f. Where the split rule reads other lengths, Lambda_k = Lambda.
+// similar, shih   offsets are c_k times current lengths, which grow to at most
+//          max(1 + c_k, 1/2 + 2 c_k) Lambda_k.
+// coasts   offsets of at most .49 of the edge, whose halves have at most .7001 of it.
+//
+// A slack covers rounding. +infinity where the bound overflows.
+class SurfaceReach {
+ public:
+  explicit SurfaceReach(const SurfaceRules& rules);
+  double operator()(const ReachInput& input) const;
+
+ private:
+  double Affine(const ReachInput& input, uint32_t levels) const;
+  double LongestShort2(double distance2) const;
+
+  const SurfaceRules* rules_;
+  double spread_;                                         // largest offset of one unit of amount
+  std::array<double, kMaxSurfaceLevel + 1> geometric_{};  // sum over k < K of 2^(-kH)
+};
+
+}  // namespace fjord
