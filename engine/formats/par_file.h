@@ -15,7 +15,8 @@ struct ParFile {
   std::optional<double> max_level, epsilon, fixvl, scale, eye_distance, seed, H, sigma;
 };
 
-Result<ParFile> ReadPar(std::string_view bytes, const std::string& name);  // H outside 0..1: kInvalid
+Result<ParFile> ReadPar(std::string_view bytes,
+                        const std::string& name);  // H outside 0..1: kInvalid
 std::string WritePar(const ParFile& par);
 
 }  // namespace fjord

@@ -1,0 +1,291 @@
+// Wavefront .obj: v (with w and colours after it), f in all its forms, l, negative indices, lines
+// continued with a backslash. Texture coordinates, normals, groups and materials are passed over;
+// free-form curves and surfaces are refused by name.
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "engine/formats/limits.h"
+#include "engine/formats/readers.h"
+#include "engine/formats/text.h"
+
+namespace fjord::formats {
+namespace {
+
+using text::NumberFault;
+
+template <size_t n>
+bool IsOneOf(std::string_view word, const std::array<std::string_view, n>& words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+constexpr std::array<std::string_view, 25> kPassedOver = {
+    "vt",       "vn",       "vp",         "g",         "s",      "o",     "mg",
+    "p",        "mtllib",   "usemtl",     "usemap",    "maplib", "bevel", "lod",
+    "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech",  "stech", "call",
+    "csh",      "cstype",   "bmat",       "con"};
+constexpr std::array<std::string_view, 3> kFreeForm = {"curv", "curv2", "surf"};
+constexpr std::array<std::string_view, 9> kFreeFormParts = {"deg",  "step", "parm", "trim", "hole",
+                                                            "scrv", "sp",   "end",  "res"};
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view bytes, const std::string& name) : lines_(bytes), name_(name) {}
+
+  Result<ShapeFile> Read() {
+    text::Line line;
+    std::string joined;
+    while (lines_.Next(&line)) {
+      line_ = line.number;
+      std::string_view content = line.text;
+      if (!content.empty() && content.back() == '\\') {
+        joined.clear();
+        while (!content.empty() && content.back() == '\\') {
+          joined.append(content.substr(0, content.size() - 1)).push_back(' ');
+          if (joined.size() > limits::kLineBytes) return LineTooLong(At(1));
+          content = lines_.Next(&line) ? line.text : std::string_view();
+        }
+        content = joined.append(content);
+      }
+      if (content.size() > limits::kLineBytes) return LineTooLong(At(1));
+      if (auto ok = ReadLine(content); !ok) return ok.error();
+    }
+    return Finish();
+  }
+
+ private:
+  struct Forward {
+    int64_t index;  // from 0
+    Place place;
+  };
+
+  Place At(int column) const { return {name_, line_, column}; }
+  Error Fail(int column, std::string message) const {
+    return Invalid(std::move(message), At(column));
+  }
+
+  Result<> ReadLine(std::string_view content) {
+    content = content.substr(0, content.find('#'));
+    text::Words words(content);
+    text::Word word;
+    if (!words.Next(&word)) return Ok{};
+    if (word.text == "v") return ReadVertex(&words);
+    if (word.text == "f" || word.text == "fo") return ReadElement(&words, true);
+    if (word.text == "l") return ReadElement(&words, false);
+    if (IsOneOf(word.text, kPassedOver) || IsOneOf(word.text, kFreeFormParts)) return Ok{};
+    if (IsOneOf(word.text, kFreeForm)) {
+      return Fail(word.column, "free-form curves and surfaces (" + std::string(word.text) +
+                                   ") are not read; turn them into polygons first");
+    }
+    return Fail(word.column, text::Quoted(word.text) + " is no statement of a Wavefront .obj file");
+  }
+
+  Result<> ReadVertex(text::Words* words) {
+    std::array<double, 7> number{};
+    size_t count = 0;
+    text::Word word;
+    const std::string name = "vertex " + std::to_string(points_.size() + 1);
+    while (words->Next(&word)) {
+      if (count == number.size()) return Fail(word.column, name + " has more than seven numbers");
+      const NumberFault fault = text::ParseNumber(word.text, &number[count++]);
+      if (fault != NumberFault::kNone) {
+        return Fail(word.column, name + ": " + text::Explain(fault, word.text));
+      }
+    }
+    if (count < 3 || count == 5) {
+      return Fail(words->column(),
+                  name + " has " + std::to_string(count) + " numbers; write x y z, or x y z r g b");
+    }
+    if (points_.size() >= limits::kVertices) return TooManyVertices(At(1));
+    points_.push_back({number[0], number[1], number[2]});
+    vertex_line_.push_back(line_);
+    if (count >= 6) {
+      colors_.resize(points_.size() - 1, Rgb(1));
+      const size_t first = count - 3;
+      colors_.push_back(Rgb(static_cast<float>(number[first]),
+                            static_cast<float>(number[first + 1]),
+                            static_cast<float>(number[first + 2])));
+    }
+    return Ok{};
+  }
+
+  // `7`, `7/1`, `7//3` or `7/1/3`, each number also negative: counted back from the last vertex.
+  Result<> ReadCorner(const text::Word& word, uint32_t* vertex) {
+    const std::string_view first = word.text.substr(0, word.text.find('/'));
+    int64_t index = 0;
+    if (text::ParseInteger(first, &index) != NumberFault::kNone) {
+      return Fail(word.column, text::Quoted(word.text) + " is no vertex number");
+    }
+    int64_t ignored = 0;
+    int slashes = 0;
+    for (size_t at = first.size(); at < word.text.size(); ++slashes) {
+      const size_t end = std::min(word.text.find('/', at + 1), word.text.size());
+      const std::string_view part = word.text.substr(at + 1, end - at - 1);
+      if (slashes == 2 ||
+          (!part.empty() && text::ParseInteger(part, &ignored) != NumberFault::kNone)) {
+        return Fail(word.column, text::Quoted(word.text) +
+                                     " is no corner; write v, v/vt, v//vn or "
+                                     "v/vt/vn");
+      }
+      at = end;
+    }
+    if (index == 0) return Fail(word.column, "vertex 0: vertices count from 1");
+    const int64_t have = static_cast<int64_t>(points_.size());
+    if (index < -have) {
+      return Fail(word.column, "vertex " + std::to_string(index) +
+                                   " is before the first; there are " + std::to_string(have) +
+                                   " so far");
+    }
+    index = index < 0 ? have + index : index - 1;
+    if (index >= static_cast<int64_t>(limits::kVertices)) {
+      return Fail(word.column,
+                  "names vertex " + std::to_string(index + 1) + ", more than a file may hold");
+    }
+    // A vertex may follow its use. The first bad one in the file is among the growing maxima.
+    if (index >= have && (forward_.empty() || index > forward_.back().index)) {
+      forward_.push_back({index, At(word.column)});
+    }
+    *vertex = static_cast<uint32_t>(index);
+    return Ok{};
+  }
+
+  Result<> ReadElement(text::Words* words, bool face) {
+    std::vector<uint32_t>& list = face ? shape_.mesh.face_vertex : curve_vertex_;
+    const size_t begin = list.size();
+    text::Word word;
+    while (words->Next(&word)) {
+      if (list.size() >= limits::kIndices) return TooManyIndices(At(word.column));
+      uint32_t vertex = 0;
+      if (auto ok = ReadCorner(word, &vertex); !ok) return ok.error();
+      list.push_back(vertex);
+    }
+    const size_t count = list.size() - begin;
+    if (count < (face ? 3u : 2u)) {
+      return Fail(words->column(), std::string(face ? "a face" : "a line") + " has " +
+                                       std::to_string(count) + " vertices; at least " +
+                                       (face ? "3" : "2") + " are needed");
+    }
+    if (face) {
+      shape_.mesh.face_size.push_back(static_cast<uint32_t>(count));
+      shape_.face_line.push_back(line_);
+    } else {
+      if (curve_size_.size() >= limits::kCurves) {
+        return MakeError(ErrorCode::kLimit, "more than 4,000,000 lines", At(1));
+      }
+      curve_size_.push_back(count);
+    }
+    return Ok{};
+  }
+
+  Result<ShapeFile> Finish() {
+    for (const Forward& forward : forward_) {
+      if (forward.index >= static_cast<int64_t>(points_.size())) {
+        return Invalid("names vertex " + std::to_string(forward.index + 1) + "; the file has " +
+                           std::to_string(points_.size()),
+                       forward.place);
+      }
+    }
+    if (shape_.mesh.face_size.empty() && curve_size_.empty()) {
+      return Invalid("the file has vertices, but no face (f) and no line (l); is it cut short?",
+                     {name_, lines_.line_number(), 0});
+    }
+    if (!colors_.empty()) colors_.resize(points_.size(), Rgb(1));
+    if (auto ok = MakeCurves(); !ok) return ok.error();
+    KeepMeshPoints();
+    return std::move(shape_);
+  }
+
+  Result<> MakeCurves() {
+    if (curve_vertex_.size() > limits::kVertices + curve_size_.size()) {
+      return TooManyVertices({name_, 0, 0});
+    }
+    size_t begin = 0;
+    for (const size_t size : curve_size_) {
+      Polyline curve;
+      curve.closed = size > 3 && curve_vertex_[begin] == curve_vertex_[begin + size - 1];
+      for (size_t k = 0; k + (curve.closed ? 1 : 0) < size; ++k) {
+        curve.points.push_back(points_[curve_vertex_[begin + k]]);
+      }
+      begin += size;
+      shape_.curves.push_back(std::move(curve));
+    }
+    return Ok{};
+  }
+
+  // Vertices that only lines use belong to the curves; all others, used or not, to the mesh.
+  void KeepMeshPoints() {
+    if (shape_.mesh.face_size.empty()) return;
+    std::vector<uint8_t> drop(points_.size(), 0);
+    for (const uint32_t v : curve_vertex_) drop[v] = 1;
+    for (const uint32_t v : shape_.mesh.face_vertex) drop[v] = 0;
+    std::vector<uint32_t> number(points_.size());
+    for (size_t v = 0; v < points_.size(); ++v) {
+      if (drop[v]) continue;
+      number[v] = static_cast<uint32_t>(shape_.mesh.points.size());
+      shape_.mesh.points.push_back(points_[v]);
+      shape_.vertex_line.push_back(vertex_line_[v]);
+      if (!colors_.empty()) shape_.mesh.colors.push_back(colors_[v]);
+    }
+    for (uint32_t& v : shape_.mesh.face_vertex) v = number[v];
+  }
+
+  text::LineReader lines_;
+  const std::string& name_;
+  int line_ = 0;
+  std::vector<Vec3> points_;
+  std::vector<int> vertex_line_;
+  std::vector<Rgb> colors_;  // none, or of the first vertices
+  std::vector<uint32_t> curve_vertex_;
+  std::vector<size_t> curve_size_;
+  std::vector<Forward> forward_;
+  ShapeFile shape_;
+};
+
+void AppendVertex(const Vec3& p, const Rgb* color, std::string* out) {
+  *out += 'v';
+  for (int k = 0; k < 3; ++k) text::Append(p[k], &(*out += ' '));
+  for (int k = 0; color != nullptr && k < 3; ++k) text::Append((*color)[k], &(*out += ' '));
+  *out += '\n';
+}
+
+}  // namespace
+
+Result<ShapeFile> ReadObj(std::string_view bytes, const std::string& name) {
+  return ObjReader(bytes, name).Read();
+}
+
+std::string WriteObj(const ShapeFile& shape, const Comment& comment) {
+  std::string out;
+  for (const std::string& line : comment) {
+    out += "# " + text::OneLine(line);
+    out += out.back() == '\\' ? " \n" : "\n";  // a backslash would join the next line
+  }
+  const Mesh& mesh = shape.mesh;
+  // Points without faces would be read as the mesh's; a file of curves alone has none.
+  const size_t mesh_points = mesh.face_size.empty() ? 0 : mesh.points.size();
+  for (size_t v = 0; v < mesh_points; ++v) {
+    AppendVertex(mesh.points[v], mesh.colors.empty() ? nullptr : &mesh.colors[v], &out);
+  }
+  for (const Polyline& curve : shape.curves) {
+    for (const Vec3& p : curve.points) AppendVertex(p, nullptr, &out);
+  }
+  size_t corner = 0;
+  for (const uint32_t size : mesh.face_size) {
+    out += 'f';
+    for (size_t k = 0; k < size; ++k) {
+      text::Append(uint64_t{mesh.face_vertex[corner++]} + 1, &(out += ' '));
+    }
+    out += '\n';
+  }
+  uint64_t first = mesh_points + 1;
+  for (const Polyline& curve : shape.curves) {
+    out += 'l';
+    for (size_t k = 0; k < curve.points.size(); ++k) text::Append(first + k, &(out += ' '));
+    if (curve.closed) text::Append(first, &(out += ' '));
+    first += curve.points.size();
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace fjord::formats

@@ -1,0 +1,15 @@
+// A whole file into memory, with a bound, and errors that say what to do.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "engine/base/result.h"
+
+namespace fjord {
+
+// kNotFound: no such file; kIo: a folder, no permission, a failing disk; kLimit: more than `most`
+// bytes. Never reads past the bound, so a pipe or device that does not end is refused too.
+Result<std::string> ReadFile(const std::string& path, size_t most);
+
+}  // namespace fjord
