@@ -1,0 +1,155 @@
+// Speed of the surface method alone: nanoseconds per midpoint and per leaf in the streaming form,
+// by SIMD level, shape and patch size, and of the welded form. CPU time of one thread.
+#include <benchmark/benchmark.h>
+
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "engine/base/check.h"
+#include "engine/base/simd.h"
+#include "engine/fractal/registry.h"
+#include "engine/fractal/surface.h"
+#include "engine/geometry/triangulate.h"
+
+namespace fjord {
+namespace {
+
+class CountSink final : public StreamSink {
+ public:
+  bool Wants(const Vec3&, const Vec3&, const Vec3&, double) override { return true; }
+  void Take(const StreamBatch& batch) override {
+    benchmark::DoNotOptimize(batch.vertices.data());
+    benchmark::DoNotOptimize(batch.triangles.data());
+  }
+};
+
+CoarseShape Quad() {
+  CoarseShape shape;
+  shape.now = shape.rest = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  shape.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return shape;
+}
+
+CoarseShape TaiwanRelief() {
+  std::ifstream file(std::string(FJORD_SOURCE_DIR) + "/examples/data/taiwan_relief.std");
+  std::string word;
+  while (file >> word && word != "data") {
+  }
+  size_t points = 0, faces = 0;
+  file >> points >> faces;
+  Mesh mesh;
+  mesh.points.resize(points);
+  for (Vec3& p : mesh.points) file >> p.x >> p.y >> p.z;
+  for (size_t f = 0; f < faces; ++f) {
+    size_t size = 0;
+    file >> size;
+    std::vector<uint32_t> corners(size);
+    for (uint32_t& corner : corners) {
+      file >> corner;
+      --corner;
+    }
+    mesh.AddFace(corners);
+  }
+  FJORD_CHECK(file && points > 0, points);
+  CoarseShape shape;
+  shape.now = shape.rest = mesh.points;
+  shape.triangles = Triangulate(mesh);
+  return shape;
+}
+
+struct Case {
+  std::string name;
+  CoarseShape shape;
+  FractalSettings settings;
+};
+
+std::vector<Case> Cases() {
+  FractalSettings settings;
+  settings.method = "surface";
+  settings.fineness.epsilon = .006;
+  Case quad{"quad", Quad(), settings};
+  settings.fineness.epsilon = .0066;
+  Case taiwan{"taiwan", TaiwanRelief(), settings};
+  Case pixels = taiwan;
+  pixels.name = "taiwan_pixels";
+  pixels.settings.fineness = {0, 1, 2000, .01, Vec3(0, -6, 4), 0};
+  Case coast = taiwan;
+  coast.name = "taiwan_coast";
+  coast.settings.coast = true;
+  Case turned = taiwan;
+  turned.name = "taiwan_perturbed";
+  turned.settings.variant = Variant::kPerturbed;
+  return {quad, taiwan, pixels, coast, turned};
+}
+
+std::unique_ptr<PreparedFractal> PrepareCase(const Case& one) {
+  const MethodInfo* method = FindFractalMethod("surface");
+  auto prepared = method->prepare(one.shape, ResolveSettings(*method, one.settings), nullptr);
+  FJORD_CHECK(prepared.ok(), prepared.error().message);
+  return std::move(*prepared);
+}
+
+void Report(benchmark::State& state, double midpoints, double leaves) {
+  const auto flags = benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert;
+  state.counters["s_per_midpoint"] = benchmark::Counter(midpoints, flags);
+  state.counters["s_per_leaf"] = benchmark::Counter(leaves, flags);
+  state.counters["leaves"] = leaves;
+}
+
+void Stream(benchmark::State& state, const Case& one, const std::string& level, size_t patch) {
+  FJORD_CHECK(SetSimdLevel(level), level);
+  const auto prepared = PrepareCase(one);
+  CountSink sink;
+  StreamStats all;
+  for (auto _ : state) {
+    all = {};
+    for (size_t root = 0; root < prepared->RootCount(); ++root) {
+      const StreamStats stats = prepared->Stream(root, sink, patch);
+      all.midpoints += stats.midpoints;
+      all.triangles += stats.triangles;
+    }
+  }
+  Report(state, static_cast<double>(all.midpoints), static_cast<double>(all.triangles));
+  FJORD_CHECK(SetSimdLevel("best"));
+}
+
+void Weld(benchmark::State& state, const Case& one) {
+  const auto prepared = PrepareCase(one);
+  size_t points = 0, leaves = 0;
+  for (auto _ : state) {
+    const auto welded = prepared->Weld({});
+    FJORD_CHECK(welded.ok());
+    points = welded->mesh.points.size();
+    leaves = welded->mesh.FaceCount();
+  }
+  Report(state, static_cast<double>(points), static_cast<double>(leaves));
+}
+
+void Register() {
+  static const std::vector<Case> kCases = Cases();
+  for (const Case& one : kCases) {
+    const auto add = [&](const std::string& level, size_t patch) {
+      benchmark::RegisterBenchmark(
+          ("stream/" + one.name + "/" + level + "/" + std::to_string(patch)).c_str(),
+          [&one, level, patch](benchmark::State& state) { Stream(state, one, level, patch); })
+          ->Unit(benchmark::kMillisecond);
+    };
+    for (const std::string& level : SimdLevels()) add(level, 2048);
+    for (const size_t patch : {256, 512, 1024, 4096}) add(SimdLevels().back(), patch);
+    benchmark::RegisterBenchmark(("weld/" + one.name).c_str(), [&one](benchmark::State& state) {
+      Weld(state, one);
+    })->Unit(benchmark::kMillisecond);
+  }
+}
+
+}  // namespace
+}  // namespace fjord
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  fjord::Register();
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
