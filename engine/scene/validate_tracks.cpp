@@ -1,0 +1,191 @@
+// CheckTracks of validate.h.
+#include <google/protobuf/descriptor.h>
+
+#include <map>
+
+#include "engine/fractal/registry.h"
+#include "engine/scene/ranges.h"
+#include "engine/scene/validate.h"
+
+namespace fjord {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+
+// Why a number cannot change within a shot; empty where it can.
+std::string WhyFixed(const v1::Scene& scene, const Route& route) {
+  const auto& steps = route.steps;
+  const std::string& top = steps[0].field->name();
+  if (top == "output") return "it belongs to the whole shot";
+  if (top == "track") return "a track cannot change a track";
+  if (top != "objects" || steps.size() < 2) return "";
+  const std::string& part = steps[1].field->name();
+  if (part == "key") return "a key picture stands at one frame; add a key instead";
+  if (part == "shape" && scene.objects(steps[0].index).key_size() > 0)
+    return "the shape comes from keys";
+  return "";
+}
+
+// Whole numbers and texts: what they are for decides what to tell.
+std::string WhyNotNumber(const Route& route) {
+  const FieldDescriptor& field = *route.steps.back().field;
+  const std::string& name = field.name();
+  if (field.containing_type() == v1::Fractal::descriptor()) {
+    return name + " shapes the whole shot; it cannot change over time";
+  }
+  if (name == "rest_frame" || name == "segments" || name == "rings") {
+    return name + " decides which points there are; it cannot change over time";
+  }
+  if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
+    return name + " is not a number; go on to one of its fields, as in " + name + "." +
+           field.message_type()->field(0)->name();
+  }
+  return "only numbers, vectors and colours change over time; " + name + " is none";
+}
+
+// Messages whose absence means something: a track does not bring them in.
+std::string MissingOwner(const v1::Scene& scene, const Route& route) {
+  const auto& steps = route.steps;
+  if (steps[0].field->name() == "sea" && !scene.has_sea())
+    return "the scene has no sea; add sea {}";
+  if (steps[0].field->name() != "objects" || steps.size() < 2) return "";
+  const v1::Object& object = scene.objects(steps[0].index);
+  if (steps[1].field->name() == "fractal" && !object.has_fractal()) {
+    return "the object has no fractal; add fractal {}";
+  }
+  if (steps[1].field->name() == "shape" && FindParent(scene, route) == nullptr) {
+    return "the shape has no such part";
+  }
+  return "";
+}
+
+// The fractal knob that a route leads to, or null.
+const Knob* KnobOf(const Route& route) {
+  if (route.steps.back().field->containing_type() != v1::Fractal::descriptor()) return nullptr;
+  for (const Knob& knob : AllKnobs()) {
+    if (knob.name == route.steps.back().field->name()) return &knob;
+  }
+  return nullptr;
+}
+
+class TrackChecker {
+ public:
+  TrackChecker(v1::Scene* scene, SceneErrors* errors) : scene_(scene), errors_(errors) {}
+
+  void Check(int index) {
+    const v1::Track& track = scene_->track(index);
+    const Route here = Route().Then("track", index);
+    if (track.path().empty()) {
+      errors_->Add(here, "path is missing; say which number changes, as in \"camera.eye\"");
+      return;
+    }
+    Result<Route> target = Target(track.path());
+    if (!target) {
+      errors_->Add(here.Then("path"), target.error().message);
+      return;
+    }
+    const int count = NumberCount(target->steps.back());
+    if (const std::string why = WhyFixed(*scene_, *target); !why.empty()) {
+      errors_->Add(here.Then("path"), track.path() + " cannot have a track: " + why);
+    } else if (count == 0) {
+      errors_->Add(here.Then("path"),
+                   track.path() + " cannot have a track: " + WhyNotNumber(*target));
+    } else if (const std::string missing = MissingOwner(*scene_, *target); !missing.empty()) {
+      errors_->Add(here.Then("path"), track.path() + ": " + missing);
+    } else {
+      CheckKnob(track.path(), *target, here);
+      CheckTrackKeys(track, here, *target, count);
+      CheckAlone(track.path(), *target, here);
+      OpenParent(scene_, *target);
+    }
+  }
+
+ private:
+  Result<Route> Target(const std::string& text) const {
+    Result<FieldPath> path = ParseFieldPath(text);
+    if (!path) return path.error();
+    return FindRoute(*scene_, *path);
+  }
+
+  void CheckKnob(const std::string& path, const Route& target, const Route& here) {
+    const Knob* knob = KnobOf(target);
+    if (knob == nullptr) return;
+    const MethodInfo* method =
+        FindFractalMethod(scene_->objects(target.steps[0].index).fractal().method());
+    if (method == nullptr) return;
+    for (const std::string_view known : method->knobs) {
+      if (known == knob->name) return;
+    }
+    errors_->Add(here.Then("path"),
+                 path + ": method " + std::string(method->name) + " has no such knob");
+  }
+
+  void CheckTrackKeys(const v1::Track& track, const Route& here, const Route& target, int count) {
+    if (track.key_size() == 0) errors_->Add(here, "the track has no keys");
+    for (int k = 0; k < track.key_size() && !errors_->Full(); ++k) {
+      const v1::TrackKey& key = track.key(k);
+      const Route key_route = here.Then("key", k);
+      if (!key.has_frame()) {
+        errors_->Add(key_route, "frame is missing");
+      } else if (k > 0 && key.frame() <= track.key(k - 1).frame()) {
+        errors_->Add(key_route.Then("frame"),
+                     "frame " + NumberText(key.frame()) + " comes after frame " +
+                         NumberText(track.key(k - 1).frame()) + "; keys ascend, one at a frame");
+      }
+      if (key.value_size() != count) {
+        errors_->Add(key_route, track.path() + " has " + std::to_string(count) +
+                                    (count == 1 ? " number" : " numbers") + "; this key gives " +
+                                    std::to_string(key.value_size()));
+        continue;
+      }
+      for (int i = 0; i < count; ++i) CheckRange(key.value(i), target, key_route.Then("value", i));
+    }
+  }
+
+  // Easing never leaves the two keys' values, so what holds at the keys holds between.
+  void CheckRange(double value, const Route& target, const Route& place) {
+    const FieldDescriptor& field = *target.steps.back().field;
+    if (const Knob* knob = KnobOf(target); knob != nullptr) {
+      const NumberRange range{knob->lowest, knob->highest, false};
+      if (!range.Holds(value)) {
+        errors_->Add(place, NumberText(value) + " is out of range: " + range.ToString());
+      }
+      return;
+    }
+    const NumberRange* range = RangeOf(field);
+    if (range == nullptr && field.message_type() == v1::Color::descriptor()) {
+      range = RangeOf(*v1::Color::descriptor()->FindFieldByName("r"));
+    }
+    if (range == nullptr && target.steps.size() > 1)
+      range = RangeOf(*target.steps[target.steps.size() - 2].field);
+    if (range != nullptr && !range->Holds(value)) {
+      errors_->Add(place, NumberText(value) + " is out of range: " + range->ToString());
+    }
+  }
+
+  void CheckAlone(const std::string& path, const Route& target, const Route& here) {
+    // by the head of the route, so that many tracks are compared with few
+    auto& others = seen_[PrintRoute(*scene_, {{target.steps.begin(), target.steps.begin() + 1}})];
+    for (const auto& [other, other_path] : others) {
+      if (!other.Holds(target) && !target.Holds(other)) continue;
+      errors_->Add(here.Then("path"), path == other_path ? path + " has a track already"
+                                                         : path + " and " + other_path +
+                                                               " are tracks of the same number");
+      return;
+    }
+    others.emplace_back(target, path);
+  }
+
+  v1::Scene* scene_;
+  SceneErrors* errors_;
+  std::map<std::string, std::vector<std::pair<Route, std::string>>> seen_;
+};
+
+}  // namespace
+
+void CheckTracks(v1::Scene* scene, SceneErrors* errors) {
+  TrackChecker checker(scene, errors);
+  for (int i = 0; i < scene->track_size() && !errors->Full(); ++i) checker.Check(i);
+}
+
+}  // namespace fjord
