@@ -6,7 +6,7 @@
 #include "client/commands/commands.h"
 #include "client/console.h"
 #include "client/exit_code.h"
-#include "client/version.h"
+#include "proto/fjord/protocol.h"
 
 namespace fjord {
 namespace {
@@ -24,7 +24,7 @@ std::string OnWrongUsage(const CLI::App* app, const CLI::Error& error) {
 int RunCommandLine(int argc, char** argv) {
   CLI::App app("Fjord makes animations of fractal natural objects, on one machine or on a farm.",
                "fjord");
-  app.set_version_flag("--version", std::string("fjord ") + kFjordVersion);
+  app.set_version_flag("--version", std::string("fjord ") + kVersion);
   app.require_subcommand(1);
   app.failure_message(OnWrongUsage);
   app.footer("Exit codes: 0 done; 1 the scene, job or check failed; 2 wrong usage; 3 no server.");

@@ -18,16 +18,23 @@ std::mutex& Mutex() {
   return mutex;
 }
 
-std::string live_line;  // guarded by Mutex()
+std::vector<std::string> live;  // guarded by Mutex()
 
+// The cursor stands below the live lines.
 void ClearLive() {
-  if (!live_line.empty()) std::fputs("\r\033[K", stderr);
+  if (!live.empty()) std::fprintf(stderr, "\033[%zuA\r\033[J", live.size());
+}
+
+void DrawLive() {
+  std::string block;
+  for (const std::string& line : live) block += line + "\n";
+  std::fputs(block.c_str(), stderr);
 }
 
 void WriteLine(const std::string& line) {
   ClearLive();
   std::fputs((line + "\n").c_str(), stderr);
-  if (!live_line.empty()) std::fputs(live_line.c_str(), stderr);
+  DrawLive();
   std::fflush(stderr);
 }
 
@@ -61,18 +68,17 @@ int Fail(const Errors& errors) {
   return code;
 }
 
-void SetLiveLine(const std::string& line) {
+void SetLive(const std::vector<std::string>& lines) {
   if (!StderrIsTerminal()) return;
   const std::lock_guard lock(Mutex());
   ClearLive();
-  live_line = line;
-  std::fputs(live_line.c_str(), stderr);
+  live = lines;
+  DrawLive();
   std::fflush(stderr);
 }
 
 Result<> Print(const std::string& text) {
   const std::lock_guard lock(Mutex());
-  ClearLive();
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
     return Ok{};
   return MakeError(ErrorCode::kIo, std::string("standard output: ") + std::strerror(errno));

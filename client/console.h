@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/base/result.h"
 
@@ -17,8 +18,9 @@ void Note(const std::string& line);
 int Fail(const Error& error);
 int Fail(const Errors& errors);
 
-// The live line at the bottom of a terminal; empty clears it. Nothing on a pipe.
-void SetLiveLine(const std::string& line);
+// The live lines at the bottom of a terminal, taking the place of those before; none clears them.
+// Nothing on a pipe.
+void SetLive(const std::vector<std::string>& lines);
 
 // stdout, flushed; kIo where it is closed or full.
 Result<> Print(const std::string& text);

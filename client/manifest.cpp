@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/version.h"
 #include "engine/animation/frame_key.h"
 #include "engine/base/digest.h"
+#include "proto/fjord/protocol.h"
 
 namespace fjord {
 namespace {
@@ -64,7 +64,7 @@ std::string ManifestText(const Manifest& manifest) {
   Json json;
   json["form"] = kForm;
   json["name"] = manifest.name;
-  json["engine"] = {{"version", kFjordVersion}, {"core", kCoreShapeVersion}};
+  json["engine"] = {{"version", kVersion}, {"core", kCoreShapeVersion}};
   json["rate"] = manifest.rate;
   json["frames_total"] = manifest.frames_total;
   Json scene = Json::parse(manifest.scene_json, nullptr, false);

@@ -35,7 +35,11 @@ std::string FormatBar(double share, int width) {
 }
 
 FrameProgress::Outlet FrameProgress::Console() {
-  return {console::StderrIsTerminal(), console::TerminalWidth(), console::SetLiveLine,
+  return {console::StderrIsTerminal(), console::TerminalWidth(),
+          [](const std::string& line) {
+            console::SetLive(line.empty() ? std::vector<std::string>{}
+                                          : std::vector<std::string>{line});
+          },
           console::Note};
 }
 

@@ -1,0 +1,62 @@
+#include <memory>
+#include <string>
+
+#include "client/commands/commands.h"
+#include "client/commands/farm_options.h"
+#include "client/console.h"
+#include "client/exit_code.h"
+#include "client/farm_client.h"
+#include "client/fetch_job.h"
+#include "client/interrupt.h"
+#include "client/job_text.h"
+
+namespace fjord {
+namespace {
+
+struct Options {
+  FarmOptions farm;
+  std::string job;
+  std::string folder;
+};
+
+int RunFetch(const Options& options) {
+  FarmClient client(options.farm.server);
+  const Result<FetchReport> report =
+      FetchJob(client, options.job, options.folder, &CatchInterrupts());
+  if (!report.ok()) return console::Fail(report.error());
+  if (options.farm.json) {
+    const nlohmann::ordered_json json = {{"folder", options.folder}, {"name", report->name},
+                                         {"total", report->total},   {"fetched", report->fetched},
+                                         {"kept", report->kept},     {"missing", report->missing}};
+    if (const Result<> printed = console::Print(json.dump(1) + "\n"); !printed.ok())
+      return console::Fail(printed.error());
+  }
+  std::string line = std::to_string(report->fetched) + " frames fetched";
+  if (report->kept > 0) line += ", " + std::to_string(report->kept) + " were there already";
+  console::Note(line + ": " + options.folder);
+  if (report->missing == 0) return kExitDone;
+  return console::Fail(
+      MakeError(ErrorCode::kNotFound, std::to_string(report->missing) + " of " +
+                                          std::to_string(report->total) +
+                                          " frames are not done yet or failed; see fjord status " +
+                                          options.job + ", then fetch again"));
+}
+
+}  // namespace
+
+void AddFetch(CLI::App& app, Run* run) {
+  CLI::App* command =
+      app.add_subcommand("fetch", "Bring the finished frames of a job into a folder");
+  const auto options = std::make_shared<Options>();
+  command->add_option("JOB", options->job, "Job id, as submit prints it")->required();
+  command->add_option("-o,--output", options->folder, "Folder for frames and manifest.json")
+      ->required();
+  AddFarmOptions(command, &options->farm);
+  command->footer(
+      "Frames that are there already are kept; exit code 1 while frames are missing.\n\n"
+      "Examples:\n"
+      "  fjord fetch JOB -o out");
+  command->callback([options, run] { *run = [options] { return RunFetch(*options); }; });
+}
+
+}  // namespace fjord

@@ -1,0 +1,139 @@
+#include <sys/random.h>
+
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/commands/commands.h"
+#include "client/commands/common.h"
+#include "client/commands/farm_options.h"
+#include "client/console.h"
+#include "client/exit_code.h"
+#include "client/farm_client.h"
+#include "client/follow_job.h"
+#include "client/job_text.h"
+#include "engine/base/digest.h"
+#include "proto/fjord/protocol.h"
+
+namespace fjord {
+namespace {
+
+struct Options {
+  FarmOptions farm;
+  std::string scene;
+  std::string frames;
+  std::string size;
+  std::vector<std::string> sets;
+  int priority = 0;
+  std::string project;
+  std::string request_id;
+  double verify = 0;
+  std::string after;
+  bool wait = false;
+  FollowOptions follow;
+};
+
+std::string RandomId() {
+  unsigned char bytes[16] = {};
+  if (getrandom(bytes, sizeof bytes, 0) != sizeof bytes) return {};
+  std::string id;
+  for (const unsigned char byte : bytes) {
+    char hex[3];
+    std::snprintf(hex, sizeof hex, "%02x", byte);
+    id += hex;
+  }
+  return id;
+}
+
+Result<v1::SubmitResponse> Submit(const Options& options, FarmClient& client, LoadedScene scene,
+                                  const FrameRange& range) {
+  const std::string bytes = SerializeScene(scene.scene);
+  const std::string digest = Sha256Of(bytes).Hex();
+  std::map<std::string, std::string> blobs = std::move(scene.assets);
+  blobs[digest] = bytes;
+  if (const Result<size_t> put = client.PutMissing(blobs); !put.ok()) return put.error();
+  v1::SubmitRequest request;
+  request.set_request_id(options.request_id.empty() ? RandomId() : options.request_id);
+  request.set_name(scene.scene.name());
+  request.set_scene_digest(digest);
+  request.set_first_frame(range.first);
+  request.set_last_frame(range.last);
+  request.set_priority(options.priority);
+  request.set_project(options.project);
+  request.set_verify_share(options.verify);
+  request.set_after_job(options.after);
+  request.set_protocol(kProtocol);
+  return client.Submit(request);
+}
+
+int RunSubmit(const Options& options) {
+  Result<FrameRange> range = ParseFrameRange(options.frames);
+  if (!range.ok()) return console::Fail(range.error());
+  const Result<std::vector<Setting>> settings = SettingsOf(options.sets, options.size);
+  if (!settings.ok()) return console::Fail(settings.error());
+  LoadResult loaded = LoadSceneFile(options.scene, *settings);
+  if (!loaded.ok()) return console::Fail(loaded.errors);
+  range = WithinAnimation(*range, 1, loaded.loaded.scene.output().frames(), options.scene);
+  if (!range.ok()) return console::Fail(range.error());
+
+  FarmClient client(options.farm.server);
+  const Result<v1::SubmitResponse> submitted =
+      Submit(options, client, std::move(loaded.loaded), *range);
+  if (!submitted.ok()) return console::Fail(submitted.error());
+  const std::string& job = submitted->job_id();
+  if (!options.farm.json) {
+    if (const Result<> printed = console::Print(job + "\n"); !printed.ok())
+      return console::Fail(printed.error());
+  }
+  int code = kExitDone;
+  nlohmann::ordered_json json = {{"id", job}, {"existed", submitted->existed()}};
+  if (options.wait) {
+    const Result<v1::Job> ended = FollowJob(client, job, options.follow);
+    if (!ended.ok()) return console::Fail(ended.error());
+    json["job"] = JobJson(*ended);
+    code = ExitCodeOfJob(ended->state());
+    if (!ended->error().empty()) console::Note("error: " + ended->error());
+  }
+  if (options.farm.json) {
+    if (const Result<> printed = console::Print(json.dump(1) + "\n"); !printed.ok())
+      return console::Fail(printed.error());
+  }
+  return code;
+}
+
+}  // namespace
+
+void AddSubmit(CLI::App& app, Run* run) {
+  CLI::App* command = app.add_subcommand("submit", "Give a scene to the farm; prints the job id");
+  const auto options = std::make_shared<Options>();
+  command->add_option("SCENE", options->scene, "Scene file")->required();
+  command->add_option("--frames", options->frames, "One frame or a range, as 1-48; default all");
+  command->add_option("--size", options->size, "Picture size instead of the scene's, as 960x540");
+  command
+      ->add_option("--set", options->sets, "path=value, instead of what the scene says; repeatable")
+      ->allow_extra_args(false);
+  command->add_option("--priority", options->priority, "Higher goes first")
+      ->check(CLI::Range(-1000, 1000));
+  command->add_option("--project", options->project, "Projects share the farm fairly");
+  command->add_option("--request-id", options->request_id,
+                      "The same id with the same content is one job, however often it is sent");
+  command->add_option("--verify", options->verify, "Share of frames rendered twice and compared")
+      ->check(CLI::Range(0., 1.));
+  command->add_option("--after", options->after, "Wait until this job is done");
+  command->add_flag("--wait", options->wait, "Follow the job to its end");
+  command
+      ->add_option("--patience", options->follow.patience_seconds,
+                   "Seconds to wait for a server that went away")
+      ->check(CLI::Range(0., 86400.));
+  AddFarmOptions(command, &options->farm);
+  command->footer(
+      "Examples:\n"
+      "  fjord submit examples/taiwan-rising.scene\n"
+      "  fjord submit island.scene --frames 1-24 --priority 10 --wait\n"
+      "  fjord submit island.scene --request-id island-7 --server 127.0.0.1:7433");
+  command->callback([options, run] { *run = [options] { return RunSubmit(*options); }; });
+}
+
+}  // namespace fjord
