@@ -1,0 +1,33 @@
+// From a scene with its tracks applied to the parts of a frame scene. A value at its default is
+// left at zero, so that equal pictures have equal keys.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/geometry/mesh.h"
+#include "engine/scene/shapes.h"
+#include "fjord/v1/frame.pb.h"
+#include "fjord/v1/scene.pb.h"
+
+namespace fjord {
+
+// Output, camera, background, lights and sea.
+void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame);
+
+// What the coarse shape of an object is in this frame.
+struct FramePose {
+  const Geometry* topology = nullptr;  // faces, kind
+  std::span<const Vec3> points;
+  std::span<const Vec3> rest;
+  std::span<const Rgb> colors;
+};
+
+void AssembleObject(const v1::Object& now, const FramePose& pose, uint32_t picture_height,
+                    v1::FrameObject* object);
+
+// All but the fineness.
+void AssembleFractal(const v1::Fractal& now, v1::FrameFractal* fractal);
+
+}  // namespace fjord

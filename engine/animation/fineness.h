@@ -1,0 +1,48 @@
+// How fine an object is split, in its rest pose and object space, for a whole shot or one frame
+// (design 1, S15; frame.proto's FrameFineness).
+//
+// Z1 Over a shot, no frame is coarser than what it asks for alone.
+// Z2 Under SHOT the answer is the same in every frame, so nothing pops.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/scene/shapes.h"
+#include "engine/scene/transform.h"
+#include "fjord/v1/frame.pb.h"
+#include "fjord/v1/scene.pb.h"
+
+namespace fjord {
+
+struct CameraState {
+  Vec3 eye{0};
+  Vec3 look_at{0};
+  Vec3 up{0};
+  bool orthographic = false;
+  double fov = 0;
+  double view_height = 0;
+  double near = 0;
+
+  explicit CameraState(const v1::Camera& camera);
+  // Pixels a unit at distance 1 (perspective).
+  double Focal(uint32_t picture_height) const;
+  // Empty, or why nothing can be seen through it.
+  std::string Defect() const;
+};
+
+// What one frame asks of one object.
+struct FinenessDemand {
+  CameraState camera;
+  ObjectTransform transform;
+  // one of these is > 0
+  double epsilon = 0;
+  double pixels = 0;
+  double viewing = 0;
+};
+
+// `rest`: the box of the rest pose. Frames in which the object has no size do not count.
+v1::FrameFineness WorkOutFineness(std::span<const FinenessDemand> demands, const Box& rest,
+                                  uint32_t picture_height);
+
+}  // namespace fjord
