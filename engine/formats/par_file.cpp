@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "engine/base/clamp.h"
 #include "engine/formats/limits.h"
 #include "engine/formats/text.h"
 
@@ -89,7 +90,7 @@ class ParReader {
     if (fault != text::NumberFault::kNone) {
       return Fail(word, name + ": " + text::Explain(fault, words_[word].text));
     }
-    const bool whole = static_cast<double>(static_cast<int64_t>(value)) == value;
+    const bool whole = Floor(value) == value;
     if (value < key.lowest || value > key.highest || (key.whole && !whole)) {
       return Fail(word,
                   name + " must be " + key.range + ", not " + text::Quoted(words_[word].text));

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 
+#include "engine/base/clamp.h"
 #include "engine/formats/limits.h"
 
 namespace fjord::formats {
@@ -120,7 +121,7 @@ Result<> PlyBody::ReadRow(const PlyElement& element, uint64_t row) {
     if (property.list) {
       double length = 0;
       if (auto ok = Read(element, row, property.count, true, &length); !ok) return ok;
-      count = static_cast<uint64_t>(length);
+      count = static_cast<uint64_t>(ClampToInt64(length));
     }
     for (uint64_t k = 0; k < count; ++k) {
       double value = 0;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 
+#include "engine/base/clamp.h"
 #include "engine/formats/limits.h"
 #include "engine/formats/ply_body.h"
 #include "engine/formats/ply_header.h"
@@ -107,7 +108,7 @@ class PlyReader {
       return body_.Fail(element, row,
                         "names vertex " + BadIndex(value) + "; vertices count from 0");
     }
-    *vertex = static_cast<uint32_t>(value);
+    *vertex = static_cast<uint32_t>(ClampToInt64(value));
     if (static_cast<double>(*vertex) != value) {
       return body_.Fail(element, row, "a vertex number is not whole");
     }
@@ -236,7 +237,7 @@ void AppendLittle(T value, std::string* out) {
 // The byte that reads back as exactly this colour, if there is one.
 std::optional<uint8_t> AsByte(float channel) {
   if (!(channel >= 0 && channel <= 1)) return std::nullopt;
-  const auto byte = static_cast<uint8_t>(channel * 255 + .5f);
+  const auto byte = static_cast<uint8_t>(RoundToUint32(channel * 255., 255));
   if (static_cast<float>(byte) / 255.f != channel) return std::nullopt;
   return byte;
 }

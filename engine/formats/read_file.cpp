@@ -8,6 +8,14 @@
 #include <system_error>
 
 namespace fjord {
+namespace {
+
+Error TooLarge(size_t most, const Place& place) {
+  return MakeError(ErrorCode::kLimit, "the file is larger than " + std::to_string(most) + " bytes",
+                   place);
+}
+
+}  // namespace
 
 Result<std::string> ReadFile(const std::string& path, size_t most) {
   const Place place = {path, 0, 0};
@@ -26,8 +34,9 @@ Result<std::string> ReadFile(const std::string& path, size_t most) {
   }
   constexpr size_t kPiece = 1u << 20;
   std::string bytes;
-  const auto size = std::filesystem::file_size(path, failed);
-  if (!failed && size <= most) bytes.reserve(static_cast<size_t>(size));
+  const auto size = std::filesystem::file_size(path, failed);  // fails for pipes and devices
+  if (!failed && size > most) return TooLarge(most, place);
+  if (!failed) bytes.reserve(static_cast<size_t>(size));
   while (true) {
     const size_t have = bytes.size();
     const size_t want = std::min(kPiece, most + 1 - have);
@@ -35,8 +44,7 @@ Result<std::string> ReadFile(const std::string& path, size_t most) {
     const size_t got = std::fread(bytes.data() + have, 1, want, file.get());
     bytes.resize(have + got);
     if (bytes.size() > most) {
-      return MakeError(ErrorCode::kLimit,
-                       "the file is larger than " + std::to_string(most) + " bytes", place);
+      return TooLarge(most, place);
     }
     if (got < want) {
       if (std::ferror(file.get()) == 0) return bytes;

@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include "engine/formats/shape_file.h"
+#include "tests/formats/expect_error.h"
+
+namespace fjord {
+namespace {
+
+Result<ShapeFile> Read(const std::string& text) { return ReadShape(text, "a.obj"); }
+
+TEST(ObjFileTest, FacesInAllTheirForms) {
+  const ShapeFile shape =
+      Read(
+          "# made by hand\nmtllib x.mtl\no thing\nv 0 0 0\nv 1 0 0 1.0\nv 1 1 0\n"
+          "v 0 1 0\nvt 0 0\nvn 0 0 1\nusemtl red\ns off\n"
+          "f 1 2 3\nf 1/1 3/1 4/1\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1 4/1/1\n"
+          "f -4 -3 -2\nf 1 2 \\\n 3 4  # continued\n")
+          .value();
+  EXPECT_EQ(shape.mesh.points.size(), 4u);
+  EXPECT_EQ(shape.mesh.face_size, (std::vector<uint32_t>{3, 3, 3, 4, 3, 4}));
+  EXPECT_EQ(shape.mesh.face_vertex,
+            (std::vector<uint32_t>{0, 1, 2, 0, 2, 3, 0, 1, 2, 0, 1, 2, 3, 0, 1, 2, 0, 1, 2, 3}));
+  EXPECT_EQ(shape.face_line.back(), 17);
+  EXPECT_EQ(shape.vertex_line, (std::vector<int>{4, 5, 6, 7}));
+}
+
+TEST(ObjFileTest, ColoursAfterTheVertex) {
+  const ShapeFile shape = Read("v 0 0 0 1 0.5 0\nv 1 0 0 1.0 0 0.25 1\nv 0 1 0\nf 1 2 3\n").value();
+  ASSERT_EQ(shape.mesh.colors.size(), 3u);
+  EXPECT_EQ(shape.mesh.colors[0], Rgb(1, .5, 0));
+  EXPECT_EQ(shape.mesh.colors[1], Rgb(0, .25, 1));
+  EXPECT_EQ(shape.mesh.colors[2], Rgb(1));  // none given: white
+}
+
+TEST(ObjFileTest, G52_LinesAreCurves) {
+  const ShapeFile shape =
+      Read("v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\nl 1/1 2/2 3/3 1/1\nl 1 2\n").value();
+  ASSERT_EQ(shape.curves.size(), 3u);
+  EXPECT_TRUE(shape.mesh.points.empty());
+  EXPECT_FALSE(shape.curves[0].closed);
+  EXPECT_EQ(shape.curves[0].points.size(), 3u);
+  EXPECT_TRUE(shape.curves[1].closed);
+  EXPECT_EQ(shape.curves[1].points.size(), 3u);
+}
+
+TEST(ObjFileTest, VerticesMayFollowTheirUse) {
+  EXPECT_EQ(Read("v 0 0 0\nf 1 2 3\nv 1 0 0\nv 0 1 0\n").value().mesh.FaceCount(), 1u);
+}
+
+TEST(ObjFileTest, VerticesOfLinesAloneAreNotTheMeshs) {
+  const ShapeFile shape =
+      Read("v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 8 8 8\nl 1 5\nf 2 3 4\n").value();
+  EXPECT_EQ(shape.mesh.points.size(), 3u);
+  EXPECT_EQ(shape.mesh.face_vertex, (std::vector<uint32_t>{0, 1, 2}));
+  EXPECT_EQ(shape.vertex_line, (std::vector<int>{2, 3, 4}));
+}
+
+TEST(ObjFileTest, EveryFaultIsNamedWithItsPlace) {
+  struct Case {
+    const char* text;
+    const char* place;
+    const char* words;
+  };
+  const Case cases[] = {
+      {"v 0 0 0\nv 1 0\n", "a.obj:2:6", "vertex 2 has 2 numbers"},
+      {"v 0 0 0\nv 1 0 0 1 1\n", "a.obj:2:12", "5 numbers"},
+      {"v 0 0 0\nv 1 0 0 1 1 1 1 1\n", "a.obj:2:17", "more than seven"},
+      {"v 0 0 0\nv nan 0 0\n", "a.obj:2:3", "not finite"},
+      {"v 0 0 0\nv 0 -inf 0\n", "a.obj:2:5", "not finite"},
+      {"v 0 0 0\nv 0 1e308 0\n", "a.obj:2:5", "too large"},
+      {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", "a.obj:4:3", "count from 1"},
+      {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", "a.obj:4:7", "before the first"},
+      {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 4 9\nf 1 2 9\n", "a.obj:5:5",
+       "vertex 4; the file has 3"},
+      {"v 0 0 0\nf 1 2 99999999\n", "a.obj:2:7", "more than a file may hold"},
+      {"v 0 0 0\nf 1 2 99999999999999999999\n", "a.obj:2:7", "no vertex number"},
+      {"v 0 0 0\nv 1 0 0\nf 1 2\n", "a.obj:3:6", "at least 3"},
+      {"v 0 0 0\nl 1\n", "a.obj:2:4", "at least 2"},
+      {"v 0 0 0\nf 1 2/x 3\n", "a.obj:2:5", "no corner"},
+      {"v 0 0 0\nf 1 2/1/1/1 3\n", "a.obj:2:5", "no corner"},
+      {"v 0 0 0\nf a b c\n", "a.obj:2:3", "no vertex number"},
+      {"v 0 0 0\nv 1 0 0\n", "a.obj:2", "no face"},
+      {"v 0 0 0\ncurv 0 1 1 2\n", "a.obj:2:1", "free-form"},
+      {"v 0 0 0\nwhatever 3\n", "a.obj:2:1", "'whatever' is no statement"},
+      {"hello\nworld\n", "a.obj", "no vertex line"},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.text);
+    ExpectError(Read(c.text), c.place, c.words);
+  }
+}
+
+TEST(ObjFileTest, AnimatorsObjectIsRecognisedAndRefused) {
+  ExpectError(Read("title a cone\ndetail cone.det\ntype polygon\nbounding_box -5 5 -5 5 -5 5\n"
+                   "color 1 .5 .5\nshininess 0\n"),
+              "a.obj:2:1", "Animator");
+}
+
+TEST(ObjFileTest, C47_CommentsAreComments) {
+  const ShapeFile shape = Read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").value();
+  EXPECT_EQ(WriteShape(shape, ShapeFormat::kObj, {"seed 7", "path C:\\"}).value(),
+            "# seed 7\n# path C:\\ \nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+}
+
+}  // namespace
+}  // namespace fjord
