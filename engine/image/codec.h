@@ -11,8 +11,8 @@
 
 namespace fjord {
 
-// What goes into the file beside the samples: frame key, seed and parameters, and nothing that is not
-// in the key.
+// What goes into the file beside the samples: frame key, seed and parameters, and nothing that is
+// not in the key.
 using PictureInfo = std::vector<std::pair<std::string, std::string>>;
 
 // The bytes of a .png or .exr file, the same for the same input and library version.

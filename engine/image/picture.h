@@ -1,8 +1,8 @@
 // A picture: samples already in their output type, and the digest that names them.
 //
 // Pixel digest = SHA-256 over "fjord-pixels 1 W H CHANNELS TYPE\n" and the samples, big-endian, top
-// row first. TYPE is uint8, uint16, half or float. Quantising happens here, before any image library
-// sees a sample (D3), by tables and integer arithmetic only.
+// row first. TYPE is uint8, uint16, half or float. Quantising happens here, before any image
+// library sees a sample (D3), by tables and integer arithmetic only.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +31,10 @@ struct Picture {
 uint32_t BytesPerSample(PixelFormat format);
 
 // Linear light to the format's samples. `linear` holds width*height*3 floats, top row first. PNG:
-// clamped to 0..1 and sRGB encoded by table; EXR: as it is, half rounded to nearest even. A NaN is a
-// broken invariant.
-Picture Quantise(uint32_t width, uint32_t height, PixelFormat format, std::span<const float> linear);
+// clamped to 0..1 and sRGB encoded by table; EXR: as it is, half rounded to nearest even. A NaN is
+// a broken invariant.
+Picture Quantise(uint32_t width, uint32_t height, PixelFormat format,
+                 std::span<const float> linear);
 
 Digest PixelDigest(const Picture& picture);
 

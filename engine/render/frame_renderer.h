@@ -1,7 +1,7 @@
 // From a frame scene to a picture: fractalize and render in one streaming pass over tiles.
 //
-// The samples are the same for every thread count, tile size, patch size and SIMD level (D4). Memory is
-// bounded by threads and tile size, not by the number of triangles.
+// The samples are the same for every thread count, tile size, patch size and SIMD level (D4).
+// Memory is bounded by threads and tile size, not by the number of triangles.
 #pragma once
 
 #include <atomic>
@@ -16,9 +16,9 @@
 namespace fjord {
 
 struct RenderOptions {
-  int threads = 1;         // 0: one a core
-  int tile_size = 0;       // pixels, a multiple of 16; 0: chosen
-  size_t patch_size = 0;   // leaves made at a time; 0: chosen
+  int threads = 1;        // 0: one a core
+  int tile_size = 0;      // pixels, a multiple of 16; 0: chosen
+  size_t patch_size = 0;  // leaves made at a time; 0: chosen
   // Called with the share done, 0..1, from any thread, at most once a tile. May be empty.
   std::function<void(double)> progress;
   // Set by anyone to end early with kCancelled. May be null.
@@ -26,9 +26,9 @@ struct RenderOptions {
 };
 
 struct RenderStats {
-  uint64_t triangles = 0;   // micro-triangles made
+  uint64_t triangles = 0;  // micro-triangles made
   uint64_t midpoints = 0;
-  uint64_t culled = 0;      // subtrees not made
+  uint64_t culled = 0;  // subtrees not made
   uint32_t depth = 0;
   uint64_t peak_bytes = 0;  // of the renderer's own buffers
 };
@@ -41,8 +41,8 @@ struct RenderedFrame {
 Result<RenderedFrame> RenderFrame(const v1::FrameScene& frame, const RenderOptions& options);
 
 // One tile of it alone (x0, y0, width, height in pixels): equals that part of the whole.
-Result<RenderedFrame> RenderTile(const v1::FrameScene& frame, uint32_t x, uint32_t y, uint32_t width,
-                                 uint32_t height, const RenderOptions& options);
+Result<RenderedFrame> RenderTile(const v1::FrameScene& frame, uint32_t x, uint32_t y,
+                                 uint32_t width, uint32_t height, const RenderOptions& options);
 
 // Metadata for the file: frame key, and seed and parameters of every object (C47).
 Result<PictureInfo> DescribeFrame(const v1::FrameScene& frame);

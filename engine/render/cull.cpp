@@ -1,0 +1,145 @@
+#include "engine/render/cull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/clamp.h"
+
+namespace fjord {
+namespace {
+
+// Pixel range low..high along one axis that a ball may touch; everything where it comes near the
+// eye.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+};
+
+double RowLength(const std::array<double, 4>& row) {
+  return std::sqrt((row[0] * row[0] + row[1] * row[1]) + row[2] * row[2]);
+}
+
+// |x/z - xc/zc| <= r (|nx| zc + |xc| |nz|) / (zc (zc - r |nz|)) for all points of the ball.
+Range BallRange(const Projection& to, const std::array<double, 4>& row, const Ball& ball,
+                double margin) {
+  const double at = Row(row, ball.center);
+  const double spread = RowLength(row) * ball.radius;
+  if (to.orthographic) {
+    return {(at - spread) / kFixedOne - margin, (at + spread) / kFixedOne + margin};
+  }
+  const double z = Row(to.z, ball.center);
+  const double z_spread = RowLength(to.z) * ball.radius;
+  const double least_z = z - z_spread;
+  if (!(least_z > .5 * to.near) || !(least_z > 1e-3 * z)) return {};
+  const double middle = at / z;
+  const double width = (spread * z + (at < 0 ? -at : at) * z_spread) / (z * least_z);
+  return {(middle - width) / kFixedOne - margin, (middle + width) / kFixedOne + margin};
+}
+
+// First and last tile of a row of `count` that low..high touches; first > last: none.
+struct Span {
+  int32_t first, last;
+};
+Span TilesOf(const Range& range, const std::vector<int32_t>& edges) {
+  const auto begin = edges.begin();
+  // tile i covers edges[i]..edges[i + 1]
+  const auto first = std::upper_bound(begin, edges.end(), range.low) - begin - 1;
+  const auto last = std::lower_bound(begin, edges.end(), range.high) - begin - 1;
+  const auto count = static_cast<int32_t>(edges.size()) - 1;
+  return {std::max(static_cast<int32_t>(first), 0),
+          std::min(static_cast<int32_t>(last), count - 1)};
+}
+
+std::vector<int32_t> Edges(int32_t from, int32_t to, int32_t step) {
+  std::vector<int32_t> edges = {from};
+  for (int32_t next = (from / step + 1) * step; next < to; next += step) edges.push_back(next);
+  edges.push_back(to);
+  return edges;
+}
+
+}  // namespace
+
+double TileMargin(double line_width) { return 1 + .75 * line_width; }
+
+TileFrustum::TileFrustum(const Projection& to, const TileRect& rect, double margin) {
+  const std::array<double, 4> one = {0, 0, 0, 1};
+  const std::array<double, 4>& w = to.orthographic ? one : to.z;
+  const auto side = [&](const std::array<double, 4>& row, double at, double sign) {
+    std::array<double, 4> plane;
+    for (int i = 0; i < 4; ++i) plane[i] = sign * (row[i] - at * kFixedOne * w[i]);
+    Add(plane);
+  };
+  side(to.x, rect.x - margin, 1);
+  side(to.x, rect.right() + margin, -1);
+  side(to.y, rect.y - margin, 1);
+  side(to.y, rect.bottom() + margin, -1);
+  std::array<double, 4> near = to.z;
+  near[3] -= to.near;
+  Add(near);
+}
+
+void TileFrustum::Add(const std::array<double, 4>& row) {
+  const double length = RowLength(row);
+  if (!(length > 0)) return;  // a flattened object: this side says nothing
+  const double scale = 1 / length;
+  planes_[count_++] = {row[0] * scale, row[1] * scale, row[2] * scale, row[3] * scale};
+}
+
+bool TileFrustum::MayTouch(const Vec3& a, const Vec3& b, const Vec3& c, double reach) const {
+  for (int i = 0; i < count_; ++i) {
+    const Plane& p = planes_[i];
+    const double da = p.x * a.x + p.y * a.y + p.z * a.z;
+    const double db = p.x * b.x + p.y * b.y + p.z * b.z;
+    const double dc = p.x * c.x + p.y * c.y + p.z * c.z;
+    if (std::max(std::max(da, db), dc) + p.distance < -reach) return false;
+  }
+  return true;
+}
+
+TileLists BinRoots(const TileRect& region, int32_t tile_size, std::span<const CullObject> objects) {
+  const std::vector<int32_t> columns = Edges(region.x, region.right(), tile_size);
+  const std::vector<int32_t> rows = Edges(region.y, region.bottom(), tile_size);
+  TileLists lists;
+  for (size_t r = 0; r + 1 < rows.size(); ++r) {
+    for (size_t c = 0; c + 1 < columns.size(); ++c) {
+      lists.tiles.push_back(
+          {columns[c], rows[r], columns[c + 1] - columns[c], rows[r + 1] - rows[r]});
+    }
+  }
+  struct Touch {
+    RootRef ref;
+    Span across, down;
+  };
+  std::vector<Touch> touches;
+  std::vector<uint32_t> count(lists.tiles.size() + 1, 0);
+  const auto width = static_cast<int32_t>(columns.size()) - 1;
+  for (size_t o = 0; o < objects.size(); ++o) {
+    const CullObject& object = objects[o];
+    const double near_length = RowLength(object.to.z);
+    for (size_t root = 0; root < object.prepared->RootCount(); ++root) {
+      const Ball ball = object.prepared->Bound(root);
+      if (Row(object.to.z, ball.center) + near_length * ball.radius < object.to.near) continue;
+      const Span across = TilesOf(BallRange(object.to, object.to.x, ball, object.margin), columns);
+      const Span down = TilesOf(BallRange(object.to, object.to.y, ball, object.margin), rows);
+      if (across.first > across.last || down.first > down.last) continue;
+      touches.push_back({{static_cast<uint32_t>(o), static_cast<uint32_t>(root)}, across, down});
+      for (int32_t r = down.first; r <= down.last; ++r) {
+        for (int32_t c = across.first; c <= across.last; ++c) ++count[r * width + c + 1];
+      }
+    }
+  }
+  for (size_t i = 1; i < count.size(); ++i) count[i] += count[i - 1];
+  lists.start = count;
+  lists.refs.resize(count.back());
+  for (const Touch& touch : touches) {
+    for (int32_t r = touch.down.first; r <= touch.down.last; ++r) {
+      for (int32_t c = touch.across.first; c <= touch.across.last; ++c) {
+        lists.refs[count[r * width + c]++] = touch.ref;
+      }
+    }
+  }
+  return lists;
+}
+
+}  // namespace fjord

@@ -1,0 +1,60 @@
+// What lies before a tile: planes in object space that subtrees are tested against (S7), and the
+// list of roots that may touch each tile. Never says no wrongly; yes costs time only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/fractal/method.h"
+#include "engine/render/tile_buffer.h"
+#include "engine/render/view.h"
+
+namespace fjord {
+
+// Pixels round a tile that still count as touching it: sample places, rounding to the fixed grid,
+// and half the width of strokes with their square ends.
+double TileMargin(double line_width);
+
+class TileFrustum {
+ public:
+  TileFrustum(const Projection& to, const TileRect& rect, double margin);
+
+  // May anything within `reach` of the triangle be seen in the tile?
+  bool MayTouch(const Vec3& a, const Vec3& b, const Vec3& c, double reach) const;
+
+ private:
+  // x n + distance >= 0 inside; n is a unit vector.
+  struct Plane {
+    double x = 0, y = 0, z = 0, distance = 0;
+  };
+  void Add(const std::array<double, 4>& row);
+
+  std::array<Plane, 5> planes_;
+  int count_ = 0;
+};
+
+struct RootRef {
+  uint32_t object = 0;
+  uint32_t root = 0;
+};
+
+// Tiles of a region, row by row, and what may touch each: roots of tile t are
+// refs[start[t]] .. refs[start[t + 1]], objects and roots ascending.
+struct TileLists {
+  std::vector<TileRect> tiles;
+  std::vector<uint32_t> start;
+  std::vector<RootRef> refs;
+};
+
+struct CullObject {
+  const PreparedFractal* prepared = nullptr;
+  Projection to;
+  double margin = 1;  // TileMargin
+};
+
+// Tiles lie on the grid of the whole picture, cut to `region`.
+TileLists BinRoots(const TileRect& region, int32_t tile_size, std::span<const CullObject> objects);
+
+}  // namespace fjord

@@ -1,0 +1,37 @@
+// Everything about a frame that its tiles share, worked out once. Immutable; free to share.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/render/built_frame.h"
+#include "engine/render/cull.h"
+#include "engine/render/raster.h"
+#include "engine/render/sea.h"
+#include "engine/render/shade.h"
+#include "engine/render/view.h"
+
+namespace fjord {
+
+struct ObjectSetup {
+  Projection to;
+  Attributes attributes;
+  double line_width = 1;
+  Surface surface;
+  HitGeometry geometry;
+};
+
+struct FrameSetup {
+  explicit FrameSetup(const BuiltFrame& built);
+
+  const BuiltFrame& frame;  // must outlive this
+  View view;
+  std::vector<ObjectSetup> objects;
+  std::vector<CullObject> cull;
+  std::vector<ShadeLight> lights;
+  std::optional<SeaPlane> sea;
+  Surface sea_surface;
+  HitGeometry sea_geometry;
+};
+
+}  // namespace fjord

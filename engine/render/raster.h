@@ -1,0 +1,65 @@
+// Draws into the visibility buffer of one tile (W38, C24): triangles of any size and strokes. Fixed
+// point, top-left rule: a sample on an edge shared by two triangles belongs to exactly one. Both
+// sides of a triangle are drawn.
+//
+// Not for sharing between threads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "engine/fractal/method.h"
+#include "engine/render/coverage.h"
+#include "engine/render/tile_buffer.h"
+#include "engine/render/view.h"
+
+namespace fjord {
+
+// Which parts of an object's vertices shading will read.
+struct Attributes {
+  bool normals = false;  // StreamVertex::direction
+  bool colors = false;   // StreamBatch::colors
+
+  bool any() const { return normals || colors; }
+};
+
+// One corner on its way to the picture.
+struct Corner {
+  ScreenPoint screen;
+  Vec3 position{0};  // object space
+  Vec3 normal{0};
+  Rgb color{0};
+};
+
+class Raster {
+ public:
+  explicit Raster(TileBuffer* tile) : tile_(tile) {}
+
+  // What follows belongs to this object.
+  void StartObject(uint32_t object, const Projection& to, Attributes attributes, double line_width);
+
+  // All triangles and segments of a batch.
+  void Draw(const StreamBatch& batch);
+
+  size_t Bytes() const;
+
+ private:
+  void DrawMicro(const StreamBatch& batch);
+  void DrawWhole(const StreamBatch& batch, const Triangle& triangle);
+  void DrawClipped(const StreamBatch& batch, const Triangle& triangle);
+  void DrawStroke(const StreamBatch& batch, const std::array<uint32_t, 2>& segment);
+  // Scan conversion; a, b, c need not lead.
+  void Fill(const Corner& a, const Corner& b, const Corner& c, const HitRecord& record);
+  HitRecord MakeRecord(const StreamBatch& batch, uint32_t a, uint32_t b, uint32_t c) const;
+  Corner MakeCorner(const StreamBatch& batch, uint32_t vertex) const;
+
+  TileBuffer* tile_;
+  uint32_t object_ = 0;
+  Projection to_;
+  Attributes attributes_;
+  double line_width_ = 1;
+  ProjectedBatch projected_;
+  CoverageList coverage_;
+};
+
+}  // namespace fjord

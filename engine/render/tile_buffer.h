@@ -1,0 +1,106 @@
+// The visibility buffer of one tile: per sample the nearest depth and which triangle it belongs to.
+//
+// Layout: rows of pixels, in each the samples of one place after another: [y][sample][x], so that
+// both rasterising and shading run along x.
+//
+// Invariants
+// V1 What a sample keeps does not depend on the order of arrival: the larger depth wins, a tie goes
+// to
+//    the smaller (object, tie).
+// V2 A record is made only for a triangle that won a sample when it came; records no sample refers
+// to
+//    any more are dropped when there are too many, so memory is bounded by the samples.
+//
+// Not for sharing between threads.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/geometry/vec.h"
+#include "engine/render/samples.h"
+
+namespace fjord {
+
+struct TileRect {
+  int32_t x = 0, y = 0, width = 0, height = 0;  // pixels
+
+  int32_t right() const { return x + width; }
+  int32_t bottom() const { return y + height; }
+};
+
+// What interpolates over a triangle beside depth, at its three corners in canonical order.
+struct CornerValues {
+  int32_t x[3], y[3];  // 24.8
+  double weight[3];    // 1 / distance for perspective, 1 for orthographic views
+  Vec3 normal[3];      // object space
+  Rgb color[3];
+};
+
+inline constexpr uint32_t kNoHit = 0xffffffff;
+inline constexpr uint32_t kNoCorners = 0xffffffff;
+
+struct HitRecord {
+  Rgb normal{0};  // facet's area vector, object space, any length; 0: faces the eye (strokes)
+  uint32_t object = 0;
+  uint64_t tie = 0;  // sum of the corners' identities
+  uint32_t corners = kNoCorners;
+};
+
+class TileBuffer {
+ public:
+  // Empties it for another tile.
+  void Reset(const TileRect& rect, uint32_t samples);
+
+  const TileRect& rect() const { return rect_; }
+  std::span<const SamplePlace> places() const { return places_; }
+  int32_t samples() const { return static_cast<int32_t>(places_.size()); }
+
+  // Of the sample `s` of pixel (x, y), picture coordinates.
+  size_t Index(int32_t x, int32_t y, int32_t s) const {
+    return (static_cast<size_t>(y - rect_.y) * places_.size() + static_cast<size_t>(s)) *
+               static_cast<size_t>(rect_.width) +
+           static_cast<size_t>(x - rect_.x);
+  }
+  double* depth() { return depth_.data(); }
+  uint32_t* hit() { return hit_.data(); }
+  const HitRecord& record(uint32_t hit) const { return records_[hit]; }
+  const CornerValues& corners(uint32_t index) const { return corners_[index]; }
+
+  uint32_t AddRecord(const HitRecord& record) {
+    records_.push_back(record);
+    return static_cast<uint32_t>(records_.size() - 1);
+  }
+  uint32_t AddCorners(const CornerValues& corners) {
+    corners_.push_back(corners);
+    return static_cast<uint32_t>(corners_.size() - 1);
+  }
+
+  // V1 at equal depth: does (object, tie) go before what is there?
+  bool WinsTie(size_t index, uint32_t object, uint64_t tie) const {
+    const uint32_t there = hit_[index];
+    if (there == kNoHit) return true;
+    const HitRecord& record = records_[there];
+    return object != record.object ? object < record.object : tie < record.tie;
+  }
+
+  // Call between batches: no record index may be held across it.
+  void CompactIfLarge();
+
+  size_t Bytes() const;
+
+ private:
+  void Compact();
+
+  TileRect rect_;
+  std::span<const SamplePlace> places_;
+  std::vector<double> depth_;
+  std::vector<uint32_t> hit_;
+  std::vector<HitRecord> records_;
+  std::vector<CornerValues> corners_;
+  std::vector<uint32_t> moved_;
+};
+
+}  // namespace fjord

@@ -1,0 +1,169 @@
+#include "engine/render/tiles.h"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <mutex>
+
+#include "engine/base/parallel.h"
+#include "engine/render/film.h"
+#include "engine/render/frame_setup.h"
+
+namespace fjord {
+namespace {
+
+constexpr int kTileSize = 256;
+constexpr size_t kPatchSize = 2048;
+
+bool IsSet(const std::atomic<bool>* cancel) {
+  return cancel != nullptr && cancel->load(std::memory_order_relaxed);
+}
+
+// Takes what a fractal streams into one tile.
+class TileSink final : public StreamSink {
+ public:
+  TileSink(const TileFrustum& frustum, const std::atomic<bool>* cancel, Raster* raster)
+      : frustum_(frustum), cancel_(cancel), raster_(raster) {}
+
+  bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, double reach) override {
+    return !IsSet(cancel_) && frustum_.MayTouch(a, b, c, reach);
+  }
+  void Take(const StreamBatch& batch) override { raster_->Draw(batch); }
+
+ private:
+  const TileFrustum& frustum_;
+  const std::atomic<bool>* cancel_;
+  Raster* raster_;
+};
+
+// The buffers one thread needs, kept from tile to tile.
+struct Worker {
+  explicit Worker(const FrameSetup& setup) : raster(&buffer), film(setup) {}
+
+  TileBuffer buffer;
+  Raster raster;
+  Film film;
+  std::vector<float> rgb;
+
+  size_t Bytes() const {
+    return buffer.Bytes() + raster.Bytes() + film.Bytes() + rgb.capacity() * sizeof(float);
+  }
+};
+
+class RegionRenderer {
+ public:
+  RegionRenderer(const BuiltFrame& frame, const TileRect& region, const RenderOptions& options)
+      : setup_(frame), region_(region), options_(options) {
+    lists_ = BinRoots(region, options.tile_size > 0 ? options.tile_size : kTileSize, setup_.cull);
+    picture_.width = static_cast<uint32_t>(region.width);
+    picture_.height = static_cast<uint32_t>(region.height);
+    picture_.format = frame.format;
+    pixel_bytes_ = 3 * BytesPerSample(frame.format);
+    picture_.bytes.resize(size_t{picture_.width} * picture_.height * pixel_bytes_);
+  }
+
+  Result<RenderedFrame> Run() {
+    ParallelFor(lists_.tiles.size(), options_.threads, [this](size_t i) { RenderTile(i); });
+    if (IsSet(options_.cancel)) return MakeError(ErrorCode::kCancelled, "cancelled");
+    for (const auto& worker : idle_) stats_.peak_bytes += worker->Bytes();
+    stats_.peak_bytes += picture_.bytes.size() + lists_.refs.capacity() * sizeof(RootRef);
+    return RenderedFrame{std::move(picture_), stats_};
+  }
+
+ private:
+  void RenderTile(size_t tile) {
+    if (IsSet(options_.cancel)) return;
+    std::unique_ptr<Worker> worker = Borrow();
+    const TileRect& rect = lists_.tiles[tile];
+    const StreamStats made = Draw(tile, worker.get());
+    worker->rgb.resize(static_cast<size_t>(rect.width) * static_cast<size_t>(rect.height) * 3);
+    worker->film.Develop(&worker->buffer, worker->rgb);
+    Store(rect, worker->rgb);
+    Return(std::move(worker), made);
+  }
+
+  StreamStats Draw(size_t tile, Worker* worker) {
+    const TileRect& rect = lists_.tiles[tile];
+    const size_t patch = options_.patch_size > 0 ? options_.patch_size : kPatchSize;
+    worker->buffer.Reset(rect, setup_.frame.samples);
+    StreamStats made;
+    uint32_t i = lists_.start[tile];
+    const uint32_t end = lists_.start[tile + 1];
+    while (i < end) {
+      const uint32_t object = lists_.refs[i].object;
+      const ObjectSetup& setup = setup_.objects[object];
+      const TileFrustum frustum(setup.to, rect, setup_.cull[object].margin);
+      worker->raster.StartObject(object, setup.to, setup.attributes, setup.line_width);
+      TileSink sink(frustum, options_.cancel, &worker->raster);
+      for (; i < end && lists_.refs[i].object == object; ++i) {
+        if (IsSet(options_.cancel)) return made;
+        const StreamStats root =
+            setup_.cull[object].prepared->Stream(lists_.refs[i].root, sink, patch);
+        made.midpoints += root.midpoints;
+        made.triangles += root.triangles;
+        made.culled += root.culled;
+        made.depth = std::max(made.depth, root.depth);
+      }
+    }
+    return made;
+  }
+
+  // Quantised here, so that no picture of floats is ever held whole.
+  void Store(const TileRect& rect, std::span<const float> rgb) {
+    const Picture part = Quantise(static_cast<uint32_t>(rect.width),
+                                  static_cast<uint32_t>(rect.height), picture_.format, rgb);
+    const size_t row = static_cast<size_t>(rect.width) * pixel_bytes_;
+    for (int32_t y = 0; y < rect.height; ++y) {
+      const size_t at = (static_cast<size_t>(rect.y - region_.y + y) * picture_.width +
+                         static_cast<size_t>(rect.x - region_.x)) *
+                        pixel_bytes_;
+      std::memcpy(&picture_.bytes[at], &part.bytes[static_cast<size_t>(y) * row], row);
+    }
+  }
+
+  std::unique_ptr<Worker> Borrow() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (idle_.empty()) return std::make_unique<Worker>(setup_);
+    std::unique_ptr<Worker> worker = std::move(idle_.back());
+    idle_.pop_back();
+    return worker;
+  }
+
+  void Return(std::unique_ptr<Worker> worker, const StreamStats& made) {
+    double share = 0;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      idle_.push_back(std::move(worker));
+      stats_.triangles += made.triangles;
+      stats_.midpoints += made.midpoints;
+      stats_.culled += made.culled;
+      stats_.depth = std::max(stats_.depth, made.depth);
+      share = static_cast<double>(++done_) / static_cast<double>(lists_.tiles.size());
+    }
+    if (options_.progress) options_.progress(share);
+  }
+
+  const FrameSetup setup_;
+  const TileRect region_;
+  const RenderOptions& options_;
+  TileLists lists_;
+  size_t pixel_bytes_ = 0;
+  Picture picture_;  // tiles write their own rows
+
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Worker>> idle_;
+  RenderStats stats_;
+  size_t done_ = 0;
+};
+
+}  // namespace
+
+Result<RenderedFrame> RenderRegion(const BuiltFrame& frame, const TileRect& region,
+                                   const RenderOptions& options) {
+  if (options.tile_size < 0 || options.tile_size % 16 != 0 || options.tile_size > 4096) {
+    return Invalid("the tile size must be a multiple of 16, at most 4096");
+  }
+  return RegionRenderer(frame, region, options).Run();
+}
+
+}  // namespace fjord
