@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/animation/eye_bound.h"
 #include "engine/base/exact_math.h"
 
 namespace fjord {
@@ -39,35 +40,47 @@ double EpsilonOf(const FinenessDemand& demand, const Box& rest, uint32_t height)
   return demand.pixels * std::max(camera.near, distance) / camera.Focal(height) / scale;
 }
 
-// By pixels, with a ball round all eyes. False where some frame has no such form.
-bool ByPixels(std::span<const FinenessDemand> demands, uint32_t height,
-              v1::FrameFineness* fineness) {
-  Box eyes;
+// The demands by pixels with one eye for all, in its possible forms. None where a demand has no
+// such form.
+std::vector<v1::FrameFineness> ByPixels(std::span<const FinenessDemand> demands, const Box& rest,
+                                        uint32_t height) {
+  std::vector<Vec3> eyes;
   double pixels = 0, focal = 0, near = 0;
   for (const FinenessDemand& demand : demands) {
+    // lengths grow by at most the largest scale, distances by at least the smallest
     const double least = demand.transform.least_scale(), largest = demand.transform.largest_scale();
-    if (demand.pixels <= 0 || demand.camera.orthographic || least <= 0) return false;
-    const bool first = eyes.empty;
-    eyes.Add(demand.transform.ToObject(demand.camera.eye));
-    const double this_focal = demand.camera.Focal(height) * (largest / least);
+    if (demand.pixels <= 0 || demand.camera.orthographic || least <= 0) return {};
     const double this_near = demand.camera.near / least;
-    pixels = first ? demand.pixels : std::min(pixels, demand.pixels);
-    focal = std::max(focal, this_focal);
-    near = first ? this_near : std::min(near, this_near);
+    pixels = eyes.empty() ? demand.pixels : std::min(pixels, demand.pixels);
+    near = eyes.empty() ? this_near : std::min(near, this_near);
+    focal = std::max(focal, demand.camera.Focal(height) * (largest / least));
+    eyes.push_back(demand.transform.ToObject(demand.camera.eye));
   }
-  const bool one_place = eyes.low == eyes.high;
-  const Vec3 center = one_place ? eyes.low : eyes.Center();
-  double radius = 0;
-  for (const FinenessDemand& demand : demands) {
-    if (one_place) break;
-    radius = std::max(radius, Length(demand.transform.ToObject(demand.camera.eye) - center));
+  std::vector<v1::FrameFineness> forms;
+  for (const EyeBound& bound : BoundEyes(eyes, rest)) {
+    v1::FrameFineness& form = forms.emplace_back();
+    form.set_pixels(pixels);
+    form.set_focal(focal);
+    form.set_near(near);
+    for (int i = 0; i < 3; ++i) form.add_eye(bound.center[i]);
+    form.set_eye_radius(bound.radius);
   }
-  fineness->set_pixels(pixels);
-  fineness->set_focal(focal);
-  fineness->set_near(near);
-  for (int i = 0; i < 3; ++i) fineness->add_eye(center[i]);
-  fineness->set_eye_radius(radius);
-  return true;
+  return forms;
+}
+
+// About how many pieces a fineness makes of something spread over the box.
+double CostOf(const v1::FrameFineness& form, const BoxCells& cells) {
+  double cost = 0;
+  for (const Vec3& x : cells.centers) {
+    double epsilon = form.epsilon();
+    if (form.focal() > 0) {
+      const Vec3 eye(form.eye(0), form.eye(1), form.eye(2));
+      epsilon =
+          form.pixels() * std::max(form.near(), Length(x - eye) - form.eye_radius()) / form.focal();
+    }
+    cost += 1 / (epsilon * epsilon);
+  }
+  return cost;
 }
 
 }  // namespace
@@ -110,17 +123,19 @@ v1::FrameFineness WorkOutFineness(std::span<const FinenessDemand> demands, const
     const double wanted = EpsilonOf(demand, rest, picture_height);
     epsilon = epsilon > 0 ? std::min(epsilon, wanted) : wanted;
   }
-  v1::FrameFineness by_pixels;
-  if (ByPixels(seen, picture_height, &by_pixels)) {
-    // The ball is the better form, as it lets far parts be coarse, unless the eyes go so far round
-    // the object that the ball takes in what none of them comes near to.
-    const Vec3 center(by_pixels.eye(0), by_pixels.eye(1), by_pixels.eye(2));
-    const double distance = DistanceTo(rest, center) - by_pixels.eye_radius();
-    const double finest =
-        by_pixels.pixels() * std::max(by_pixels.near(), distance) / by_pixels.focal();
-    if (seen.size() == 1 || finest >= .5 * epsilon) return by_pixels;
-  }
   fineness.set_epsilon(epsilon);
+  // One eye lets far parts be coarse; where the camera goes round the object, one length may be
+  // less.
+  const std::vector<v1::FrameFineness> forms = ByPixels(seen, rest, picture_height);
+  if (forms.size() == 1) return forms[0];
+  const BoxCells cells = CutBox(rest, 6);
+  double least = CostOf(fineness, cells);
+  for (const v1::FrameFineness& form : forms) {
+    const double cost = CostOf(form, cells);
+    if (cost >= least) continue;
+    least = cost;
+    fineness = form;
+  }
   return fineness;
 }
 

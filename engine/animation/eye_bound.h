@@ -1,0 +1,30 @@
+// One eye that stands for all places a camera takes: a place and a radius so that, for every x in a
+// box, |x - center| - radius is at most the distance from x to any of the eyes. A moving camera
+// then never asks for more than the one eye gives (FrameFineness).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/scene/shapes.h"
+
+namespace fjord {
+
+struct EyeBound {
+  Vec3 center{0};
+  double radius = 0;
+};
+
+// A box cut into cells, to bound a function over it: places, and how far a cell reaches from each.
+struct BoxCells {
+  std::vector<Vec3> centers;
+  double reach = 0;
+};
+// At most `along` cells along each side; one where the box is flat.
+BoxCells CutBox(const Box& box, int along);
+
+// Few candidates, each right; which is best depends on what is asked (fineness.cpp). One eye place
+// gives one bound of radius 0. `eyes` not empty.
+std::vector<EyeBound> BoundEyes(std::span<const Vec3> eyes, const Box& box);
+
+}  // namespace fjord
