@@ -80,10 +80,13 @@ Result<double> SimilarFactor(double H, int uniforms) {
   }
   const double D = 2 - H;
   const GaussianCells cells(uniforms);
-  double low = 0;
-  double high = 64;
   if (H >= 1) {
     return 0.0;
+  }
+  double low = 0;
+  double high = 1;
+  while (high < 0x1p20 && cells.Moran(high, D) < 1) {
+    high *= 2;
   }
   if (cells.Moran(high, D) < 1) {
     return Invalid("the similar law cannot reach dimension " + std::to_string(D) +

@@ -130,21 +130,16 @@ class PreparedCurve : public PreparedFractal {
     return additions_ ? 2 * additions_->Reach(edge) : rules_.Reach(segment);
   }
 
-  LineVertex Halve(const LineSegment& s, const LineFrame& frame, const LineRules::Size& size,
-                   const LineSegment& edge) const {
-    LineVertex v = rules_.Halve(s, frame, size).vertex;
-    if (additions_) {
-      v.position = additions_->Place(edge, frame, 2 * s.place + 1, s.level() + 1);
-    }
-    return v;
-  }
-
   // Depth-first, along the chain. wants(segment): is it to be made; asked of large ones only.
   // take(leaf) returns false to stop; then so does Walk.
   template <typename Wants, typename Take>
   bool Walk(size_t root, StreamStats* stats, const Wants& wants, const Take& take) const {
     const LineSegment edge = chain_.Edge(root);
     const LineFrame& frame = chain_.frames[root];
+    std::optional<CurveAdditions::Line> line;
+    if (additions_) {
+      line = additions_->Start(edge, frame);
+    }
     std::vector<LineSegment> stack{edge};
     while (!stack.empty()) {
       const LineSegment s = stack.back();
@@ -163,7 +158,10 @@ class PreparedCurve : public PreparedFractal {
         continue;
       }
       ++stats->midpoints;
-      const LineVertex middle = Halve(s, frame, size, edge);
+      LineVertex middle = rules_.Halve(s, frame, size).vertex;
+      if (line) {
+        middle.position = additions_->Place(*line, 2 * s.place + 1, s.level() + 1);
+      }
       stack.push_back(rules_.Second(s, middle));
       stack.push_back(rules_.First(s, middle));
     }

@@ -11,6 +11,10 @@ namespace {
 // Levels that are added: lattices down to 2^-24 of an edge, finer than any picture shows.
 constexpr int kLevels = 25;
 
+// Cells along an edge at level 0, times 2 a level. Golden, so that cells and dyadic places never
+// fall into step: every place meets all phases.
+constexpr double kCells = 0x1.9e3779b97f4a8p0;
+
 // E[(B(u+x) - B(u))^2] over a uniformly drawn u.
 double Structure(double x) {
   if (x <= 1) {
@@ -24,10 +28,11 @@ double Structure(double x) {
 
 CurveAdditions::CurveAdditions(const FractalSettings& settings)
     : settings_(settings), decay_(exact::Exp2(-settings.H)) {
-  // A small d sees lattices of all sizes: the sum over all whole k of 2^(-2kH) Structure(2^k).
+  // A small d sees lattices of all sizes: the sum over all whole k of 2^(-2kH) Structure(kCells
+  // 2^k).
   double sum = 0;
   for (int k = -40; k <= 40; ++k) {
-    sum += exact::Exp2(-2 * settings.H * k) * Structure(exact::Exp2(k));
+    sum += exact::Exp2(-2 * settings.H * k) * Structure(kCells * exact::Exp2(k));
   }
   scale_ = 1 / std::sqrt(sum);
 }
@@ -36,7 +41,7 @@ double CurveAdditions::Noise(const Identity& edge, double t) const {
   const int uniforms = static_cast<int>(settings_.uniforms);
   double sum = 0;
   double amount = 1;
-  double cells = 1;
+  double cells = kCells;
   for (uint64_t k = 0; k < kLevels; ++k) {
     const uint64_t key = DrawBits(edge.lo, 64 + k);
     const double phase = static_cast<double>(key >> 40) * 0x1p-24;
@@ -58,17 +63,21 @@ double CurveAdditions::Deviation(const LineSegment& edge, double stretch) const 
          (settings_.stretch ? stretch : 1);
 }
 
-Vec3 CurveAdditions::Place(const LineSegment& edge, const LineFrame& frame, uint64_t place,
-                           uint32_t level) const {
-  const double t = static_cast<double>(place) / static_cast<double>(uint64_t{1} << level);
+CurveAdditions::Line CurveAdditions::Start(const LineSegment& edge, const LineFrame& frame) const {
   const Identity id = MidpointIdentity(edge.a.id, edge.b.id);
-  const double first = Noise(id, 0);
-  const double last = Noise(id, 1);
-  const double bridge = Noise(id, t) - (first + (last - first) * t);
-  const double sa = static_cast<double>(edge.a.stretch);
-  const double sb = static_cast<double>(edge.b.stretch);
-  const Vec3 straight = edge.a.position + (edge.b.position - edge.a.position) * t;
-  return straight + frame.normal * (Deviation(edge, sa + (sb - sa) * t) * bridge);
+  return {edge, frame, Noise(id, 0), Noise(id, 1)};
+}
+
+Vec3 CurveAdditions::Place(const Line& line, uint64_t place, uint32_t level) const {
+  const LineVertex& a = line.edge.a;
+  const LineVertex& b = line.edge.b;
+  const double t = static_cast<double>(place) / static_cast<double>(uint64_t{1} << level);
+  const double noise = Noise(MidpointIdentity(a.id, b.id), t);
+  const double bridge = noise - (line.first + (line.last - line.first) * t);
+  const double stretch = static_cast<double>(a.stretch) +
+                         (static_cast<double>(b.stretch) - static_cast<double>(a.stretch)) * t;
+  const Vec3 straight = a.position + (b.position - a.position) * t;
+  return straight + line.frame.normal * (Deviation(line.edge, stretch) * bridge);
 }
 
 // |X| stays below G times the sum of 2^(-kH), and the straight line between two values of X too.
