@@ -2,6 +2,7 @@
 // by SIMD level, shape and patch size, and of the welded form. CPU time of one thread.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -129,11 +130,15 @@ void Weld(benchmark::State& state, const Case& one) {
 void Register() {
   static const std::vector<Case> kCases = Cases();
   for (const Case& one : kCases) {
+    const auto least = [](const std::vector<double>& v) {
+      return *std::min_element(v.begin(), v.end());
+    };
     const auto add = [&](const std::string& level, size_t patch) {
       benchmark::RegisterBenchmark(
           ("stream/" + one.name + "/" + level + "/" + std::to_string(patch)).c_str(),
           [&one, level, patch](benchmark::State& state) { Stream(state, one, level, patch); })
-          ->Unit(benchmark::kMillisecond);
+          ->Unit(benchmark::kMillisecond)
+          ->ComputeStatistics("min", least);
     };
     for (const std::string& level : SimdLevels()) add(level, 2048);
     for (const size_t patch : {256, 512, 1024, 4096}) add(SimdLevels().back(), patch);

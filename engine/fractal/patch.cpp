@@ -62,7 +62,11 @@ void Patch::AddTriangle(const Triangle& corners, const Triangle& edges, uint32_t
 
 PatchStep Patch::Step(const SurfaceRules& rules, uint32_t level) {
   edge_slot.Reserve(edge_count, run_begin);
-  long_edge.Reserve(edge_count - run_begin, 0);
+  for (PatchBuffer<uint32_t>* list : {&long_edge, &long_a, &long_b}) {
+    list->Reserve(edge_count - run_begin, 0);
+  }
+  long_length2.Reserve(edge_count - run_begin, 0);
+  long_amount.Reserve(edge_count - run_begin, 0);
   CollectLongEdges(*this);
   if (long_count == 0 || level >= rules.max_level) {
     EndTriangles();
@@ -89,11 +93,11 @@ PatchStep Patch::Step(const SurfaceRules& rules, uint32_t level) {
     column.Reserve(leaf_count + triangles.count, leaf_count);
   }
 
+  if (rules.law == Law::kAffine) MeasureAmounts(rules, *this);
   SplitEdges(rules, *this, level);
   if (colors) {
     for (size_t k = 0; k < long_count; ++k) {
-      const uint32_t edge = long_edge[k];
-      color[midpoints + k] = (color[edge_a[edge]] + color[edge_b[edge]]) * .5f;
+      color[midpoints + k] = (color[long_a[k]] + color[long_b[k]]) * .5f;
     }
   }
   run_begin = halves[0];
@@ -124,7 +128,8 @@ std::span<const Triangle> Patch::PackLeaves() {
 size_t Patch::Bytes() const {
   size_t bytes = vertex.bytes() + color.bytes() + edge_a.bytes() + edge_b.bytes() +
                  edge_site.bytes() + edge_length2.bytes() + edge_current2.bytes() +
-                 edge_slot.bytes() + long_edge.bytes() + leaf_triangles.bytes();
+                 edge_slot.bytes() + 3 * long_edge.bytes() + long_length2.bytes() +
+                 long_amount.bytes() + leaf_triangles.bytes();
   for (const PatchTriangles* list : {&triangles, &next}) {
     for (int k = 0; k < 3; ++k) bytes += list->corner[k].bytes() + list->edge[k].bytes();
     bytes += list->site.bytes();

@@ -91,7 +91,9 @@ struct Patch {
   size_t edge_count = 0;
   size_t run_begin = 0;  // edges from here on are the last run
 
-  PatchBuffer<uint32_t> long_edge;  // numbers of this level's long edges
+  // This level's long edges: number, ends, squared rest length, and what the affine law gives them.
+  PatchBuffer<uint32_t> long_edge, long_a, long_b;
+  PatchBuffer<double> long_length2, long_amount;
   size_t long_count = 0;
   size_t halves[2] = {0, 0};  // first and second halves of long edge k: halves[i] + k
   size_t midpoints = 0;       // midpoint of long edge k: midpoints + k
@@ -126,6 +128,7 @@ struct Patch {
 // but for MeasureEdges, which sets sign and current2 of edges begin..end from their vertices.
 void MeasureEdges(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end);
 void CollectLongEdges(Patch& patch);
+void MeasureAmounts(const SurfaceRules& rules, Patch& patch);
 void SplitEdges(const SurfaceRules& rules, Patch& patch, uint32_t level);
 void SplitTriangles(const SurfaceRules& rules, Patch& patch);
 void InterleaveLeaves(Patch& patch);

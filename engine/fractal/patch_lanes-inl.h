@@ -32,6 +32,75 @@ using VU = hn::Vec<DU>;
 using VN = hn::Vec<DN>;
 using MF = hn::Mask<DF>;
 
+// 32-bit lanes, as many as fit.
+using D32 = hn::ScalableTag<uint32_t>;
+using V32 = hn::Vec<D32>;
+using M32 = hn::Mask<D32>;
+
+// Brings the lanes of a mask to the front. Highway's own Compress copies its table at every call
+// under g++ 12, and works the order out again for every vector.
+class Compactor {
+ public:
+#if HWY_TARGET == HWY_SCALAR || (HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86)
+  explicit HWY_INLINE Compactor(M32 mask) : order_(mask) {}
+  HWY_INLINE V32 operator()(V32 v) const { return hn::Compress(v, order_); }
+
+ private:
+  M32 order_;
+#else
+  explicit HWY_INLINE Compactor(M32 mask) : order_(Order(mask)) {}
+  HWY_INLINE V32 operator()(V32 v) const { return hn::TableLookupLanes(v, order_); }
+
+ private:
+  static constexpr size_t kLanes32 = hn::MaxLanes(D32());
+  struct Table {
+    alignas(64) uint32_t lane[size_t{1} << kLanes32][kLanes32];
+    constexpr Table() : lane() {
+      for (size_t mask = 0; mask < size_t{1} << kLanes32; ++mask) {
+        size_t n = 0;
+        for (uint32_t i = 0; i < kLanes32; ++i) {
+          if (mask >> i & 1) lane[mask][n++] = i;
+        }
+        while (n < kLanes32) lane[mask][n++] = 0;
+      }
+    }
+  };
+  using Indices = decltype(hn::IndicesFromVec(D32(), hn::Zero(D32())));
+  static HWY_INLINE Indices Order(M32 mask) {
+    static constexpr Table kTable;
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(D32(), mask, bits);
+    return hn::IndicesFromVec(D32(), hn::Load(D32(), kTable.lane[bits[0]]));
+  }
+  Indices order_;
+#endif
+};
+
+// from[index], lane by lane. With Highway's AVX-512 gather, g++ 12 lets every gather wait for the
+// last result that was in its register; from zeroed registers they overlap.
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+HWY_INLINE VF Gather(const double* from, VN index) {
+  return VF{_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, index.raw, from, 8)};
+}
+HWY_INLINE V32 Gather(const uint32_t* from, V32 index) {
+  return V32{_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), 0xffff, index.raw, from, 4)};
+}
+HWY_INLINE hn::Vec<DS> Gather(const float* from, VN index) {
+  return hn::Vec<DS>{_mm256_mmask_i32gather_ps(_mm256_setzero_ps(), 0xff, index.raw, from, 4)};
+}
+#else
+HWY_INLINE VF Gather(const double* from, VN index) {
+  return hn::GatherIndex(DF(), from, hn::BitCast(DI(), hn::PromoteTo(DU(), index)));
+}
+HWY_INLINE V32 Gather(const uint32_t* from, V32 index) {
+  const D32 d;
+  return hn::GatherIndex(d, from, hn::BitCast(hn::RebindToSigned<D32>(), index));
+}
+HWY_INLINE hn::Vec<DS> Gather(const float* from, VN index) {
+  return hn::GatherIndex(DS(), from, hn::BitCast(hn::RebindToSigned<DN>(), index));
+}
+#endif
+
 HWY_INLINE VF Larger(VF a, VF b) { return hn::IfThenElse(hn::Gt(a, b), a, b); }
 
 // Eight columns of N vertices: x y z, direction x y z, id, and the word of two floats.

@@ -6,6 +6,8 @@
 //   two     (m0 1 m1), and of the rest the diagonal from the midpoint of the longer edge; equal
 //           edges: from the one with the smaller sum of identities
 //   three   (0 m0 m2) (m0 1 m1) (m2 m1 2) (m0 m1 m2)
+#include <bit>
+
 #include "engine/fractal/patch.h"
 
 // The order matters.
@@ -34,23 +36,13 @@ struct CaseList {
   size_t count;
 };
 
-using D32 = hn::ScalableTag<uint32_t>;
-using V32 = hn::Vec<D32>;
-using M32 = hn::Mask<D32>;
-
 HWY_INLINE V32 Turned(V32 by0, V32 by1, V32 by2, M32 turn1, M32 turn2) {
   return hn::IfThenElse(turn2, by2, hn::IfThenElse(turn1, by1, by0));
-}
-
-// Appends the lanes of `mask` of each column.
-HWY_INLINE void Append(V32 v, M32 mask, uint32_t* to) {
-  hn::StoreU(hn::Compress(v, mask), D32(), to);
 }
 
 HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end,
                           CaseList* lists) {
   const D32 d;
-  const hn::RebindToSigned<D32> di;
   constexpr size_t kLanes32 = hn::MaxLanes(D32());
   const V32 index_bits = hn::Set(d, ~Patch::kFlip), short_slot = hn::Set(d, Patch::kShort);
   for (int i = 0; i < 3; ++i) lists[i].count = 0;
@@ -63,12 +55,13 @@ HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin,
       v[k] = hn::LoadU(d, &from.corner[k][t]);
       e[k] = hn::IfThenElseZero(valid, hn::LoadU(d, &from.edge[k][t]));
       const V32 index = hn::And(e[k], index_bits);
-      s[k] = hn::GatherIndex(d, patch.edge_slot.data(), hn::BitCast(di, index));
+      s[k] = Gather(patch.edge_slot.data(), index);
       split[k] = hn::And(valid, hn::Ne(s[k], short_slot));
     }
     const M32 any = hn::Or(split[0], hn::Or(split[1], split[2]));
     const M32 leaf = hn::AndNot(any, valid);
-    for (int k = 0; k < 3; ++k) Append(v[k], leaf, &patch.leaf[k][patch.leaf_count]);
+    const Compactor leaf_front(leaf);
+    for (int k = 0; k < 3; ++k) hn::StoreU(leaf_front(v[k]), d, &patch.leaf[k][patch.leaf_count]);
     patch.leaf_count += hn::CountTrue(d, leaf);
 
     const M32 three = hn::And(split[0], hn::And(split[1], split[2]));
@@ -89,12 +82,15 @@ HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin,
     const M32 masks[3] = {one, two, three};
     for (int c = 0; c < 3; ++c) {
       CaseList& list = lists[c];
+      const Compactor front(masks[c]);
       for (int k = 0; k < 3; ++k) {
-        Append(tv[k], masks[c], &list.corner[k][list.count]);
-        Append(te[k], masks[c], &list.edge[k][list.count]);
-        if (k <= c) Append(ts[k], masks[c], &list.slot[k][list.count]);
+        hn::StoreU(front(tv[k]), d, &list.corner[k][list.count]);
+        hn::StoreU(front(te[k]), d, &list.edge[k][list.count]);
+        if (k <= c) hn::StoreU(front(ts[k]), d, &list.slot[k][list.count]);
       }
-      if (rules.sites) Append(hn::LoadU(d, &from.site[t]), masks[c], &list.site[list.count]);
+      if (rules.sites) {
+        hn::StoreU(front(hn::LoadU(d, &from.site[t])), d, &list.site[list.count]);
+      }
       list.count += hn::CountTrue(d, masks[c]);
     }
   }
@@ -172,10 +168,6 @@ class Expander {
     if (rules_.sites) site_ = hn::LoadU(dn, &list_.site[i]);
   }
 
-  static VF Gather(const double* from, VN index) {
-    return hn::GatherIndex(DF(), from, hn::BitCast(DI(), hn::PromoteTo(DU(), index)));
-  }
-
   static hn::Mask<DN> Narrow(MF mask) {
     const DU du;
     const VU bits = hn::BitCast(du, hn::VecFromMask(DF(), mask));
@@ -242,11 +234,9 @@ class Expander {
   }
 
   VF Distance2(VN index) const {
-    const DS ds;
-    const hn::RebindToSigned<DN> di;
-    const auto* floats = &patch_.vertex[0].eye_distance2;
-    const auto offset = hn::BitCast(di, hn::ShiftLeft<4>(index));
-    return hn::PromoteTo(DF(), hn::GatherIndex(ds, floats, offset));
+    // A vertex is 16 floats.
+    const float* floats = &patch_.vertex[0].eye_distance2;
+    return hn::PromoteTo(DF(), Gather(floats, hn::ShiftLeft<4>(index)));
   }
 
   // Runs of lanes_ entries, ascending: what is written beyond a run belongs to the next one.
@@ -285,15 +275,45 @@ void SplitTrianglesLanes(const SurfaceRules& rules, Patch& patch) {
 void CollectLongEdgesLanes(Patch& patch) {
   const size_t begin = patch.run_begin, end = patch.edge_count;
   const double* length2 = patch.edge_length2.data();
-  uint32_t* list = patch.long_edge.data();
+  const uint32_t* edge_a = patch.edge_a.data();
+  const uint32_t* edge_b = patch.edge_b.data();
   uint32_t* slot = patch.edge_slot.data();
+  uint32_t* list = patch.long_edge.data();
+  uint32_t* list_a = patch.long_a.data();
+  uint32_t* list_b = patch.long_b.data();
   size_t n = 0;
-  for (size_t i = begin; i < end; ++i) {
-    const bool is_short = PatchIsShort(length2[i]);
-    list[n] = static_cast<uint32_t>(i);
-    slot[i] = is_short ? Patch::kShort : static_cast<uint32_t>(n);
-    n += is_short ? 0 : 1;
+  const D32 d;
+  constexpr size_t kLanes32 = hn::MaxLanes(D32());
+  const V32 none = hn::Set(d, Patch::kShort);
+  for (size_t i = begin; i < end; i += kLanes32) {
+#if HWY_TARGET == HWY_SCALAR
+    const M32 is_long = hn::Eq(hn::Set(d, PatchIsShort(length2[i]) ? 1 : 0), hn::Zero(d));
+#else
+    // The sign is in a double's upper word.
+    constexpr bool kLittle = std::endian::native == std::endian::little;
+    const DF df;
+    const V32 low = hn::BitCast(d, hn::LoadU(df, length2 + i));
+    const V32 high = hn::BitCast(d, hn::LoadU(df, length2 + i + kLanes32 / 2));
+    const V32 word = kLittle ? hn::ConcatOdd(d, high, low) : hn::ConcatEven(d, high, low);
+    const M32 is_long = hn::And(hn::FirstN(d, end - i), hn::Lt(word, hn::Set(d, 0x80000000u)));
+#endif
+    const Compactor front(is_long);
+    hn::StoreU(none, d, slot + i);
+    hn::StoreU(front(hn::Iota(d, static_cast<uint32_t>(i))), d, list + n);
+    hn::StoreU(front(hn::LoadU(d, edge_a + i)), d, list_a + n);
+    hn::StoreU(front(hn::LoadU(d, edge_b + i)), d, list_b + n);
+    n += hn::CountTrue(d, is_long);
   }
+  double* list_length2 = patch.long_length2.data();
+  for (size_t k = 0; k < n; ++k) {
+    slot[list[k]] = static_cast<uint32_t>(k);
+    list_length2[k] = length2[list[k]];
+  }
+  // Whole vectors may be read.
+  hn::StoreU(hn::Zero(d), d, list + n);
+  hn::StoreU(hn::Zero(d), d, list_a + n);
+  hn::StoreU(hn::Zero(d), d, list_b + n);
+  hn::StoreU(hn::Set(DF(), 1.0), DF(), list_length2 + n);
   patch.long_count = n;
 }
 

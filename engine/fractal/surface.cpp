@@ -169,7 +169,7 @@ class PreparedSurface final : public PreparedFractal {
       }
       most = std::max(most, length2 * rules_.length_scale / side);
     }
-    return most * 2.5;
+    return most * 1.25;
   }
 
   void Load(const PatchRoot& root, const EdgeSite* sites, size_t limit, Patch& patch) const {
