@@ -6,6 +6,7 @@
 #include <google/protobuf/util/json_util.h>
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 
 #include "engine/scene/limits.h"
@@ -68,14 +69,53 @@ std::string Reworded(const std::string& message) {
   return message;
 }
 
+// Lines and columns from 0, as the library counts them: a tab goes on to the next multiple of 8.
+struct TextPoint {
+  int line = 0;
+  int column = 0;
+
+  void Pass(char c) {
+    if (c == '\n') {
+      ++line;
+      column = 0;
+    } else {
+      column += c == '\t' ? 8 - column % 8 : 1;
+    }
+  }
+};
+
+// The library points behind a wrong name; this is where the name itself begins: its last occurrence
+// before `behind`. `behind` where there is none.
+TextPoint StartOf(const std::string& name, TextPoint behind, const std::string& text) {
+  TextPoint found = behind, at;
+  const auto is_letter = [&](size_t i) {
+    return i < text.size() &&
+           (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_');
+  };
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (at.line > behind.line || (at.line == behind.line && at.column >= behind.column)) break;
+    const bool starts = i == 0 || !is_letter(i - 1);
+    if (starts && text.compare(i, name.size(), name) == 0 && !is_letter(i + name.size()))
+      found = at;
+    at.Pass(text[i]);
+  }
+  return found;
+}
+
 // Unknown fields come as warnings, so that reading goes on and all of them are reported.
 class Collector : public google::protobuf::io::ErrorCollector {
  public:
-  explicit Collector(std::string name) : name_(std::move(name)) {}
+  Collector(std::string name, const std::string& text) : name_(std::move(name)), text_(text) {}
   void AddError(int line, int column, const std::string& message) override {
     if (errors_.size() > limits::kErrors) return;
-    Place place{name_, line + 1, line < 0 ? 0 : column + 1};
-    errors_.push_back(Invalid(Reworded(message), place));
+    TextPoint at{line, column};
+    if (message.find("has no field named") != std::string::npos) {
+      at = StartOf(Quoted(message, 1), at, text_);
+    } else if (message.find("Unknown enumeration value") != std::string::npos) {
+      at = StartOf(Quoted(message, 0), at, text_);
+    }
+    errors_.push_back(
+        Invalid(Reworded(message), {name_, at.line + 1, at.line < 0 ? 0 : at.column + 1}));
   }
   void AddWarning(int line, int column, const std::string& message) override {
     if (message.find("has no field named") != std::string::npos) AddError(line, column, message);
@@ -83,12 +123,13 @@ class Collector : public google::protobuf::io::ErrorCollector {
   Errors Take() { return std::move(errors_); }
 
  private:
-  std::string name_;
+  const std::string name_;
+  const std::string& text_;
   Errors errors_;
 };
 
 Errors ParseText(const std::string& text, v1::Scene* scene, SceneSource* source) {
-  Collector collector(source->name);
+  Collector collector(source->name, text);
   google::protobuf::TextFormat::Parser parser;
   parser.RecordErrorsTo(&collector);
   parser.WriteLocationsTo(&source->tree);

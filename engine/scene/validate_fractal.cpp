@@ -86,10 +86,13 @@ void CheckFractal(const v1::Scene& scene, int object, const SceneShapes& shapes,
   }
   CheckKnown(*method, fractal, route, errors);
   for (const SettingDefect& defect : FindSettingDefects(*method, SettingsOf(*method, fractal))) {
-    const std::string prefix = std::string(defect.field) + " ";
-    const bool repeats = defect.message.compare(0, prefix.size(), prefix) == 0;
-    errors->Add(route.Then(defect.field),
-                repeats ? defect.message.substr(prefix.size()) : defect.message);
+    // the path in front says which field it is
+    std::string text = defect.message;
+    for (const std::string& start :
+         {std::string(defect.field) + " is ", std::string(defect.field) + " "}) {
+      if (text.compare(0, start.size(), start) == 0) text.erase(0, start.size());
+    }
+    errors->Add(route.Then(defect.field), text);
   }
 }
 
