@@ -1,0 +1,84 @@
+#include "server/submit.h"
+
+#include <vector>
+
+#include "fjord/v1/scene.pb.h"
+#include "server/engine_planner.h"
+#include "server/rpc_status.h"
+#include "server/validate.h"
+
+namespace fjord::server {
+namespace {
+
+// Every file a scene names.
+std::vector<const v1::File*> FilesOf(const v1::Scene& scene) {
+  std::vector<const v1::File*> files;
+  const auto add = [&](const v1::Shape& shape) {
+    if (shape.has_file()) files.push_back(&shape.file());
+  };
+  for (const v1::Object& object : scene.objects()) {
+    add(object.shape());
+    for (const v1::Key& key : object.key()) add(key.shape());
+  }
+  return files;
+}
+
+// What makes two submits the same: all but the request id and the sender's version.
+std::string ContentOf(v1::SubmitRequest request) {
+  request.clear_request_id();
+  request.clear_protocol();
+  return Sha256Of(request.SerializeAsString()).Hex();
+}
+
+}  // namespace
+
+Answer<JobSpec> ReadSubmission(const v1::SubmitRequest& request, const BlobStore& blobs) {
+  const Digest digest = *ParseDigest(request.scene_digest());
+  const Result<std::string> bytes = blobs.Get(digest, kMaxSceneBytes);
+  if (!bytes.ok()) {
+    const Code code = bytes.error().code == ErrorCode::kNotFound ? Code::kNotFound
+                      : bytes.error().code == ErrorCode::kLimit  ? Code::kInvalid
+                                                                 : Code::kUnavailable;
+    return Refusal{code, "scene_digest: " + bytes.error().message};
+  }
+  v1::Scene scene;
+  if (!scene.ParseFromString(*bytes)) {
+    return Refusal{Code::kInvalid, "scene_digest: blob " + digest.Hex() + " is not a scene"};
+  }
+  for (const v1::File* file : FilesOf(scene)) {
+    const std::optional<Digest> asset = ParseDigest(file->digest());
+    if (!asset) {
+      return Refusal{Code::kInvalid,
+                     "scene: file \"" + file->path() + "\" is named without a digest"};
+    }
+    if (!blobs.Has(*asset)) {
+      return Refusal{Code::kNotFound, "scene: file \"" + file->path() + "\" (" + file->digest() +
+                                          ") is not in the store; put it first"};
+    }
+  }
+  const uint32_t frames = scene.output().frames();
+  if (frames < 1 || frames > kMaxFrame) {
+    return Refusal{Code::kInvalid,
+                   "scene: output.frames is " + std::to_string(frames) + ", outside 1..1000000"};
+  }
+  JobSpec spec;
+  spec.first = request.first_frame() == 0 ? 1 : request.first_frame();
+  spec.last = request.last_frame() == 0 ? frames : request.last_frame();
+  if (spec.last > frames || spec.first > spec.last) {
+    return Refusal{Code::kInvalid,
+                   (spec.first > frames ? "first_frame: " : "last_frame: ") +
+                       std::to_string(spec.first > frames ? spec.first : spec.last) +
+                       " is outside the animation, which has frames 1-" + std::to_string(frames)};
+  }
+  spec.request_id = request.request_id();
+  spec.content = ContentOf(request);
+  spec.name = request.name().empty() ? scene.name() : request.name();
+  spec.project = request.project();
+  spec.scene = digest;
+  spec.priority = request.priority();
+  spec.verify_share = request.verify_share();
+  spec.after = request.after_job().empty() ? 0 : *ParseJobId(request.after_job());
+  return spec;
+}
+
+}  // namespace fjord::server

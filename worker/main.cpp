@@ -1,0 +1,85 @@
+// fjord-worker: reads flags, runs the Worker until it ends or SIGTERM or SIGINT comes.
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+
+#include "proto/fjord/protocol.h"
+#include "worker/identity.h"
+#include "worker/worker.h"
+
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kFailed = 1;
+constexpr int kWrongUsage = 2;
+constexpr int kLookMs = 200;
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  fjord::worker::WorkerConfig config;
+  std::string level = "info";
+  std::vector<std::string> unit;
+  CLI::App app("A worker of a Fjord farm: joins a coordinator and renders what it hands out.",
+               "fjord-worker");
+  app.set_version_flag("--version", std::string("fjord-worker ") + fjord::kVersion);
+  app.set_config("--config", "", "Read options from FILE (lines of name=value)");
+  app.add_option("--server", config.server, "HOST:PORT of the coordinator")
+      ->envname("FJORD_SERVER")
+      ->capture_default_str();
+  app.add_option("--threads", config.threads, "Threads on one frame; 0: one a core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_option("--tag", config.tags, "A word that says what this worker is; may be repeated");
+  app.add_option("--id", config.id, "Name of this worker, the same after a restart");
+  app.add_option("--cache", config.cache_dir, "Folder to keep scenes and assets in");
+  app.add_option("--log", level, "debug, info, warn or err")->capture_default_str();
+  app.add_option("--render-unit", unit,
+                 "SCENE FRAME KEY: the child's side of a unit that runs alone")
+      ->expected(3)
+      ->group("");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kWrongUsage;
+  }
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("fjord-worker"));
+  spdlog::set_level(spdlog::level::from_str(level));
+  std::signal(SIGPIPE, SIG_IGN);
+  if (!unit.empty()) {
+    const auto channel = grpc::CreateChannel(config.server, grpc::InsecureChannelCredentials());
+    const auto blobs = fjord::worker::MakeGrpcBlobs(channel, config.cache_dir, config.cache_bytes);
+    const auto renderer = fjord::worker::MakeEngineRenderer(*blobs, config.threads);
+    return fjord::worker::RenderForParent(
+        *renderer,
+        {unit[0], static_cast<uint32_t>(std::strtoul(unit[1].c_str(), nullptr, 10)), unit[2]});
+  }
+
+  // Before any thread is made, so that all of them leave these signals to this one.
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGTERM, SIGINT}) sigaddset(&signals, signal);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+
+  if (config.id.empty()) config.id = fjord::worker::TakeWorkerId();
+  config.program = "/proc/self/exe";
+  const std::unique_ptr<fjord::worker::Worker> worker = fjord::worker::Worker::Start(config);
+  const timespec look{0, kLookMs * 1'000'000L};
+  while (true) {
+    if (sigtimedwait(&signals, nullptr, &look) > 0) {
+      spdlog::info("stopping: what this worker holds is given back");
+      worker->Stop();
+      return kDone;
+    }
+    const std::optional<fjord::Result<>> ended = worker->WaitFor(0);
+    if (!ended) continue;
+    worker->Stop();
+    if (ended->ok()) return kDone;
+    std::fprintf(stderr, "fjord-worker: %s\n", ended->error().ToString().c_str());
+    return kFailed;
+  }
+}
