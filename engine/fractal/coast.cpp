@@ -11,9 +11,13 @@
 namespace fjord {
 namespace {
 
-// A piece that is cut inward leaves each half at least this share of its area (an undisplaced cut
-// leaves a half).
-constexpr double kLeastShare = .125;
+// Each half keeps at least this share of the area of the piece that is cut; an undisplaced cut
+// leaves it a half.
+constexpr double kLeastShare = .0625;
+
+// An outward cut seals its inside off (four triangles) where the sealed apex leaves the halves this
+// much room, in squares of their own lengths: that is from offsets of a quarter segment on.
+constexpr double kRoomToSeal = .4;
 
 // Twice the area of a, b, c, counted positive where they turn left about n.
 double Turn(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& n) {
@@ -28,15 +32,39 @@ struct Node {
   Vec3 normal_e;
 };
 
-// What a cut makes: the displaced point, and the undisplaced one where it stays as an apex.
+// What a cut makes: the displaced point, and the undisplaced one where that becomes the apex.
 struct Cut {
   CoastVertex p;
   CoastVertex m;
-  bool outward = false;
+  bool sealed = false;
 };
 
 CoastVertex Start(const Node& n) { return {n.edge.a, n.normal_s, true}; }
 CoastVertex End(const Node& n) { return {n.edge.b, n.normal_e, true}; }
+
+// The share of the way from `middle` to p at which both halves keep their least area under apex o.
+// Their areas are linear in the offset.
+double ShareThatFits(const Vec3& s, const Vec3& e, const Vec3& o, const Vec3& middle, const Vec3& p,
+                     const Vec3& plane) {
+  const double least = kLeastShare * Turn(s, e, o, plane);
+  double share = 1;
+  for (const auto& [a, b] : {std::pair(s, o), std::pair(o, e)}) {
+    const double unmoved = Turn(b, a, middle, plane);
+    const double moved = Turn(b, a, p, plane);
+    if (moved < least) {
+      const double most = unmoved > least ? (unmoved - least) / (unmoved - moved) : 0;
+      share = most < share ? most : share;
+    }
+  }
+  return share;
+}
+
+// Room that the halves (s,p) and (p,e) have under an apex: the smaller area over squared length.
+double Room(const Vec3& s, const Vec3& p, const Vec3& e, const Vec3& apex, const Vec3& plane) {
+  const double first = Turn(s, p, apex, plane) / glm::dot(p - s, p - s);
+  const double second = Turn(p, e, apex, plane) / glm::dot(e - p, e - p);
+  return first < second ? first : second;
+}
 
 Cut MakeCut(const LineRules& rules, const Node& node, const LineFrame& frame,
             const LineRules::Size& size) {
@@ -44,30 +72,25 @@ Cut MakeCut(const LineRules& rules, const Node& node, const LineFrame& frame,
   const Vec3& s = node.edge.a.position;
   const Vec3& e = node.edge.b.position;
   const Vec3& o = node.o.line.position;
+  const Vec3& p = half.vertex.position;
   Cut cut;
   cut.p = {half.vertex, Unit(node.normal_s + node.normal_e, node.normal_s), true};
-  cut.outward = Turn(s, half.vertex.position, e, frame.plane) > 1e-12 * glm::dot(e - s, e - s);
-  if (!cut.outward) {
-    // The areas of (s,p,o) and (p,e,o) are linear in the offset: go as far as both stay.
-    const double least = kLeastShare * Turn(s, e, o, frame.plane);
-    double share = 1;
-    for (const auto& [a, b] : {std::pair(s, o), std::pair(o, e)}) {
-      const double unmoved = Turn(b, a, half.middle, frame.plane);
-      const double moved = Turn(b, a, half.vertex.position, frame.plane);
-      if (moved < least) {
-        const double most = unmoved > least ? (unmoved - least) / (unmoved - moved) : 0;
-        share = most < share ? most : share;
-      }
-    }
-    if (share < 1) {
-      cut.p.line.position = half.middle + half.vertex.direction * (half.offset * share);
-    }
+  const bool outward = Turn(s, p, e, frame.plane) > 1e-12 * glm::dot(e - s, e - s);
+  if (outward) {
+    const double sealed = Room(s, p, e, half.middle, frame.plane);
+    cut.sealed = sealed >= kRoomToSeal || sealed > Room(s, p, e, o, frame.plane);
+  }
+  if (cut.sealed) {
+    cut.m = cut.p;
+    cut.m.coast = false;
+    cut.m.line.position = half.middle;
+    cut.m.line.id = {DrawBits(half.vertex.id.lo, 31), Mix64(half.vertex.id.hi ^ 31)};
     return cut;
   }
-  cut.m = cut.p;
-  cut.m.coast = false;
-  cut.m.line.position = half.middle;
-  cut.m.line.id = {DrawBits(half.vertex.id.lo, 31), Mix64(half.vertex.id.hi ^ 31)};
+  const double share = ShareThatFits(s, e, o, half.middle, p, frame.plane);
+  if (share < 1) {
+    cut.p.line.position = half.middle + half.vertex.direction * (half.offset * share);
+  }
   return cut;
 }
 
@@ -211,13 +234,13 @@ class PreparedCoast : public PreparedFractal {
       }
       ++stats->midpoints;
       const Cut cut = MakeCut(rules_, node, piece.frame, size);
-      if (cut.outward) {
+      if (cut.sealed) {
         stats->triangles += 2;
         if (!take(Start(node), cut.m, node.o) || !take(cut.m, End(node), node.o)) {
           return false;
         }
       }
-      const CoastVertex& apex = cut.outward ? cut.m : node.o;
+      const CoastVertex& apex = cut.sealed ? cut.m : node.o;
       stack.push_back({rules_.Second(node.edge, cut.p.line), apex, cut.p.normal, node.normal_e});
       stack.push_back({rules_.First(node.edge, cut.p.line), apex, node.normal_s, cut.p.normal});
     }
