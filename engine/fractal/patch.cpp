@@ -67,7 +67,7 @@ PatchStep Patch::Step(const SurfaceRules& rules, uint32_t level) {
   }
   long_length2.Reserve(edge_count - run_begin, 0);
   long_amount.Reserve(edge_count - run_begin, 0);
-  CollectLongEdges(*this);
+  CollectLongEdges(*this, rules.sites);
   if (long_count == 0 || level >= rules.max_level) {
     EndTriangles();
     return PatchStep::kDone;

@@ -91,7 +91,8 @@ struct Patch {
   size_t edge_count = 0;
   size_t run_begin = 0;  // edges from here on are the last run
 
-  // This level's long edges: number, ends, squared rest length, and what the affine law gives them.
+  // This level's long edges: number (kept only where SurfaceRules::sites), ends, squared rest
+  // length, and what the affine law gives them.
   PatchBuffer<uint32_t> long_edge, long_a, long_b;
   PatchBuffer<double> long_length2, long_amount;
   size_t long_count = 0;
@@ -127,7 +128,7 @@ struct Patch {
 // Per-target kernels (patch_midpoints.cpp, patch_triangles.cpp); Patch::Step is their only caller
 // but for MeasureEdges, which sets sign and current2 of edges begin..end from their vertices.
 void MeasureEdges(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end);
-void CollectLongEdges(Patch& patch);
+void CollectLongEdges(Patch& patch, bool keep_numbers);
 void MeasureAmounts(const SurfaceRules& rules, Patch& patch);
 void SplitEdges(const SurfaceRules& rules, Patch& patch, uint32_t level);
 void SplitTriangles(const SurfaceRules& rules, Patch& patch);

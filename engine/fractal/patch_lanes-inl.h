@@ -44,21 +44,37 @@ class Compactor {
 #if HWY_TARGET == HWY_SCALAR || (HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86)
   explicit HWY_INLINE Compactor(M32 mask) : order_(mask) {}
   HWY_INLINE V32 operator()(V32 v) const { return hn::Compress(v, order_); }
+  // For lanes of the mask: how many come before.
+  HWY_INLINE V32 Ranks() const {
+#if HWY_TARGET == HWY_SCALAR
+    return hn::Zero(D32());
+#else
+    return V32{_mm512_maskz_expand_epi32(order_.raw, hn::Iota(D32(), 0).raw)};
+#endif
+  }
 
  private:
   M32 order_;
 #else
-  explicit HWY_INLINE Compactor(M32 mask) : order_(Order(mask)) {}
+  explicit HWY_INLINE Compactor(M32 mask) {
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(D32(), mask, bits);
+    bits_ = bits[0];
+    order_ = hn::IndicesFromVec(D32(), hn::Load(D32(), Tables().lane[bits_]));
+  }
   HWY_INLINE V32 operator()(V32 v) const { return hn::TableLookupLanes(v, order_); }
+  HWY_INLINE V32 Ranks() const { return hn::Load(D32(), Tables().rank[bits_]); }
 
  private:
   static constexpr size_t kLanes32 = hn::MaxLanes(D32());
   struct Table {
     alignas(64) uint32_t lane[size_t{1} << kLanes32][kLanes32];
-    constexpr Table() : lane() {
+    alignas(64) uint32_t rank[size_t{1} << kLanes32][kLanes32];
+    constexpr Table() : lane(), rank() {
       for (size_t mask = 0; mask < size_t{1} << kLanes32; ++mask) {
         size_t n = 0;
         for (uint32_t i = 0; i < kLanes32; ++i) {
+          rank[mask][i] = static_cast<uint32_t>(n);
           if (mask >> i & 1) lane[mask][n++] = i;
         }
         while (n < kLanes32) lane[mask][n++] = 0;
@@ -66,12 +82,11 @@ class Compactor {
     }
   };
   using Indices = decltype(hn::IndicesFromVec(D32(), hn::Zero(D32())));
-  static HWY_INLINE Indices Order(M32 mask) {
+  static HWY_INLINE const Table& Tables() {
     static constexpr Table kTable;
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(D32(), mask, bits);
-    return hn::IndicesFromVec(D32(), hn::Load(D32(), kTable.lane[bits[0]]));
+    return kTable;
   }
+  size_t bits_ = 0;
   Indices order_;
 #endif
 };

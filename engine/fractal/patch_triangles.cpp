@@ -99,12 +99,31 @@ HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin,
 // N triangles of one case on their way to children.
 class Expander {
  public:
-  Expander(const SurfaceRules& rules, Patch& patch, const CaseList& list)
-      : rules_(rules), patch_(patch), list_(list) {}
+  Expander(const SurfaceRules& rules, Patch& patch)
+      : rules_(rules),
+        patch_(patch),
+        edge_a_(patch.edge_a.data()),
+        edge_b_(patch.edge_b.data()),
+        edge_length2_(patch.edge_length2.data()),
+        edges_(patch.edge_count),
+        triangles_(patch.next.count) {
+    for (int k = 0; k < 3; ++k) {
+      corner_[k] = patch.next.corner[k].data();
+      edge_[k] = patch.next.edge[k].data();
+    }
+    along_ = hn::Set(DN(), static_cast<uint32_t>(patch.halves[0]));
+    against_ = hn::Set(DN(), static_cast<uint32_t>(patch.halves[1]));
+    midpoints_ = hn::Set(DN(), static_cast<uint32_t>(patch.midpoints));
+  }
+  // What was appended.
+  void Finish() {
+    patch_.edge_count = edges_;
+    patch_.next.count = triangles_;
+  }
 
-  void One() {
-    for (size_t i = 0; i < list_.count; i += kLanes) {
-      Load(i, 1);
+  void One(const CaseList& list) {
+    for (size_t i = 0; i < list.count; i += kLanes) {
+      Load(list, i, 1);
       const VF median = Median(length_[1], length_[2], length_[0]);
       const VN inner = AddEdge(m_[0], v_[2], median);
       AddTriangle(v_[0], m_[0], v_[2], First(0), inner, e_[2]);
@@ -112,9 +131,9 @@ class Expander {
     }
   }
 
-  void Two() {
-    for (size_t i = 0; i < list_.count; i += kLanes) {
-      Load(i, 2);
+  void Two(const CaseList& list) {
+    for (size_t i = 0; i < list.count; i += kLanes) {
+      Load(list, i, 2);
       const MF first_longer = FirstLonger();
       const hn::Mask<DN> first = Narrow(first_longer);
       const VF cut2 = length_[2] * hn::Set(DF(), .25);
@@ -134,10 +153,10 @@ class Expander {
     }
   }
 
-  void Three() {
+  void Three(const CaseList& list) {
     const VF quarter = hn::Set(DF(), .25);
-    for (size_t i = 0; i < list_.count; i += kLanes) {
-      Load(i, 3);
+    for (size_t i = 0; i < list.count; i += kLanes) {
+      Load(list, i, 3);
       const VN p0 = AddEdge(m_[0], m_[1], length_[2] * quarter);
       const VN p1 = AddEdge(m_[1], m_[2], length_[0] * quarter);
       const VN p2 = AddEdge(m_[2], m_[0], length_[1] * quarter);
@@ -149,23 +168,22 @@ class Expander {
   }
 
  private:
-  void Load(size_t i, int long_edges) {
+  void Load(const CaseList& list, size_t i, int long_edges) {
     const DN dn;
-    lanes_ = list_.count - i < kLanes ? list_.count - i : kLanes;
+    lanes_ = list.count - i < kLanes ? list.count - i : kLanes;
     const hn::Mask<DN> valid = hn::FirstN(dn, lanes_);
-    const VN midpoints = hn::Set(dn, static_cast<uint32_t>(patch_.midpoints));
     for (int k = 0; k < 3; ++k) {
-      v_[k] = hn::IfThenElseZero(valid, hn::LoadU(dn, &list_.corner[k][i]));
-      e_[k] = hn::IfThenElseZero(valid, hn::LoadU(dn, &list_.edge[k][i]));
+      v_[k] = hn::IfThenElseZero(valid, hn::LoadU(dn, &list.corner[k][i]));
+      e_[k] = hn::IfThenElseZero(valid, hn::LoadU(dn, &list.edge[k][i]));
       flip_[k] = hn::And(e_[k], hn::Set(dn, Patch::kFlip));
       index_[k] = hn::AndNot(flip_[k], e_[k]);
-      length_[k] = hn::Abs(Gather(patch_.edge_length2.data(), index_[k]));
+      length_[k] = hn::Abs(Gather(edge_length2_, index_[k]));
       if (k < long_edges) {
-        slot_[k] = hn::IfThenElseZero(valid, hn::LoadU(dn, &list_.slot[k][i]));
-        m_[k] = slot_[k] + midpoints;
+        slot_[k] = hn::IfThenElseZero(valid, hn::LoadU(dn, &list.slot[k][i]));
+        m_[k] = slot_[k] + midpoints_;
       }
     }
-    if (rules_.sites) site_ = hn::LoadU(dn, &list_.site[i]);
+    if (rules_.sites) site_ = hn::LoadU(dn, &list.site[i]);
   }
 
   static hn::Mask<DN> Narrow(MF mask) {
@@ -177,13 +195,10 @@ class Expander {
   static VN Back(VN edge) { return hn::Xor(edge, hn::Set(DN(), Patch::kFlip)); }
 
   // The halves of long edge k as the triangle runs along them.
-  VN First(int k) const { return Half(k, 0); }
-  VN Second(int k) const { return Half(k, 1); }
-  VN Half(int k, size_t which) const {
-    const DN dn;
-    const VN along = hn::Set(dn, static_cast<uint32_t>(patch_.halves[which]));
-    const VN against = hn::Set(dn, static_cast<uint32_t>(patch_.halves[1 - which]));
-    const hn::Mask<DN> flipped = hn::Ne(flip_[k], hn::Zero(dn));
+  VN First(int k) const { return Half(k, along_, against_); }
+  VN Second(int k) const { return Half(k, against_, along_); }
+  VN Half(int k, VN along, VN against) const {
+    const hn::Mask<DN> flipped = hn::Ne(flip_[k], hn::Zero(DN()));
     return hn::Or(slot_[k] + hn::IfThenElse(flipped, against, along), flip_[k]);
   }
 
@@ -219,17 +234,17 @@ class Expander {
 
   VN AddEdge(VN a, VN b, VF length2) {
     const DN dn;
-    const size_t at = patch_.edge_count;
-    hn::StoreU(a, dn, &patch_.edge_a[at]);
-    hn::StoreU(b, dn, &patch_.edge_b[at]);
+    const size_t at = edges_;
+    hn::StoreU(a, dn, edge_a_ + at);
+    hn::StoreU(b, dn, edge_b_ + at);
     if (!rules_.current()) {
       const VF zero = hn::Zero(DF());
       const bool far = ByDistance(rules_);
       length2 = Flagged(rules_, length2, far ? Distance2(a) : zero, far ? Distance2(b) : zero);
     }
-    hn::StoreU(length2, DF(), &patch_.edge_length2[at]);
+    hn::StoreU(length2, DF(), edge_length2_ + at);
     if (rules_.sites) hn::StoreU(site_, dn, &patch_.edge_site[at]);
-    patch_.edge_count += lanes_;
+    edges_ += lanes_;
     return hn::Iota(dn, static_cast<uint32_t>(at));
   }
 
@@ -242,20 +257,26 @@ class Expander {
   // Runs of lanes_ entries, ascending: what is written beyond a run belongs to the next one.
   void AddTriangle(VN a, VN b, VN c, VN ab, VN bc, VN ca) {
     const DN dn;
-    PatchTriangles& to = patch_.next;
     const VN corners[3] = {a, b, c};
     const VN edges[3] = {ab, bc, ca};
     for (int k = 0; k < 3; ++k) {
-      hn::StoreU(corners[k], dn, &to.corner[k][to.count]);
-      hn::StoreU(edges[k], dn, &to.edge[k][to.count]);
+      hn::StoreU(corners[k], dn, corner_[k] + triangles_);
+      hn::StoreU(edges[k], dn, edge_[k] + triangles_);
     }
-    if (rules_.sites) hn::StoreU(site_, dn, &to.site[to.count]);
-    to.count += lanes_;
+    if (rules_.sites) hn::StoreU(site_, dn, &patch_.next.site[triangles_]);
+    triangles_ += lanes_;
   }
 
   const SurfaceRules& rules_;
   Patch& patch_;
-  const CaseList& list_;
+  uint32_t* edge_a_;
+  uint32_t* edge_b_;
+  double* edge_length2_;
+  uint32_t* corner_[3];
+  uint32_t* edge_[3];
+  size_t edges_;
+  size_t triangles_;
+  VN along_, against_, midpoints_;
   size_t lanes_ = 0;
   VN v_[3], e_[3], flip_[3], index_[3], slot_[3], m_[3], site_;
   VF length_[3];
@@ -263,54 +284,73 @@ class Expander {
 
 void SplitTrianglesLanes(const SurfaceRules& rules, Patch& patch) {
   CaseList lists[3];
+  Expander expander(rules, patch);
   for (size_t begin = 0; begin < patch.triangles.count; begin += kBlock) {
     const size_t left = patch.triangles.count - begin;
     SortBlock(rules, patch, begin, begin + (left < kBlock ? left : kBlock), lists);
-    Expander(rules, patch, lists[0]).One();
-    Expander(rules, patch, lists[1]).Two();
-    Expander(rules, patch, lists[2]).Three();
+    expander.One(lists[0]);
+    expander.Two(lists[1]);
+    expander.Three(lists[2]);
   }
+  expander.Finish();
 }
 
-void CollectLongEdgesLanes(Patch& patch) {
+// The lanes that are long of edges i..: the sign is in a double's upper word.
+HWY_INLINE M32 LongLanes(const double* length2) {
+  const D32 d;
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Eq(hn::Set(d, PatchIsShort(*length2) ? 1 : 0), hn::Zero(d));
+#else
+  constexpr bool kLittle = std::endian::native == std::endian::little;
+  const V32 low = hn::BitCast(d, hn::LoadU(DF(), length2));
+  const V32 high = hn::BitCast(d, hn::LoadU(DF(), length2 + hn::MaxLanes(D32()) / 2));
+  const V32 word = kLittle ? hn::ConcatOdd(d, high, low) : hn::ConcatEven(d, high, low);
+  return hn::Lt(word, hn::Set(d, 0x80000000u));
+#endif
+}
+
+void CollectLongEdgesLanes(Patch& patch, bool keep_numbers) {
+  const D32 d;
+  constexpr size_t kLanes32 = hn::MaxLanes(D32());
   const size_t begin = patch.run_begin, end = patch.edge_count;
-  const double* length2 = patch.edge_length2.data();
+  double* length2 = patch.edge_length2.data();
   const uint32_t* edge_a = patch.edge_a.data();
   const uint32_t* edge_b = patch.edge_b.data();
   uint32_t* slot = patch.edge_slot.data();
   uint32_t* list = patch.long_edge.data();
   uint32_t* list_a = patch.long_a.data();
   uint32_t* list_b = patch.long_b.data();
-  size_t n = 0;
-  const D32 d;
-  constexpr size_t kLanes32 = hn::MaxLanes(D32());
+  double* list_length2 = patch.long_length2.data();
+  for (size_t i = 0; i < kLanes32; ++i) length2[end + i] = -1;
   const V32 none = hn::Set(d, Patch::kShort);
+  size_t n = 0;
   for (size_t i = begin; i < end; i += kLanes32) {
-#if HWY_TARGET == HWY_SCALAR
-    const M32 is_long = hn::Eq(hn::Set(d, PatchIsShort(length2[i]) ? 1 : 0), hn::Zero(d));
-#else
-    // The sign is in a double's upper word.
-    constexpr bool kLittle = std::endian::native == std::endian::little;
-    const DF df;
-    const V32 low = hn::BitCast(d, hn::LoadU(df, length2 + i));
-    const V32 high = hn::BitCast(d, hn::LoadU(df, length2 + i + kLanes32 / 2));
-    const V32 word = kLittle ? hn::ConcatOdd(d, high, low) : hn::ConcatEven(d, high, low);
-    const M32 is_long = hn::And(hn::FirstN(d, end - i), hn::Lt(word, hn::Set(d, 0x80000000u)));
-#endif
+    const M32 is_long = LongLanes(length2 + i);
     const Compactor front(is_long);
-    hn::StoreU(none, d, slot + i);
-    hn::StoreU(front(hn::Iota(d, static_cast<uint32_t>(i))), d, list + n);
+    const V32 places = front.Ranks() + hn::Set(d, static_cast<uint32_t>(n));
+    hn::StoreU(hn::IfThenElse(is_long, places, none), d, slot + i);
     hn::StoreU(front(hn::LoadU(d, edge_a + i)), d, list_a + n);
     hn::StoreU(front(hn::LoadU(d, edge_b + i)), d, list_b + n);
+    if (keep_numbers) {
+      hn::StoreU(front(hn::Iota(d, static_cast<uint32_t>(i))), d, list + n);
+    }
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+    const __mmask16 bits = is_long.raw;
+    const auto low = static_cast<__mmask8>(bits), high = static_cast<__mmask8>(bits >> 8);
+    const size_t low_count = static_cast<size_t>(__builtin_popcount(low));
+    _mm512_storeu_pd(list_length2 + n, _mm512_maskz_compress_pd(low, _mm512_loadu_pd(length2 + i)));
+    _mm512_storeu_pd(list_length2 + n + low_count,
+                     _mm512_maskz_compress_pd(high, _mm512_loadu_pd(length2 + i + 8)));
+    n += low_count + static_cast<size_t>(__builtin_popcount(high));
+#else
+    for (size_t k = 0, at = n; k < kLanes32; ++k) {
+      list_length2[at] = length2[i + k];
+      at += PatchIsShort(length2[i + k]) ? 0 : 1;
+    }
     n += hn::CountTrue(d, is_long);
-  }
-  double* list_length2 = patch.long_length2.data();
-  for (size_t k = 0; k < n; ++k) {
-    slot[list[k]] = static_cast<uint32_t>(k);
-    list_length2[k] = length2[list[k]];
+#endif
   }
   // Whole vectors may be read.
-  hn::StoreU(hn::Zero(d), d, list + n);
   hn::StoreU(hn::Zero(d), d, list_a + n);
   hn::StoreU(hn::Zero(d), d, list_b + n);
   hn::StoreU(hn::Set(DF(), 1.0), DF(), list_length2 + n);
@@ -341,7 +381,9 @@ void SplitTriangles(const SurfaceRules& rules, Patch& patch) {
   HWY_DYNAMIC_DISPATCH(SplitTrianglesLanes)(rules, patch);
 }
 
-void CollectLongEdges(Patch& patch) { HWY_DYNAMIC_DISPATCH(CollectLongEdgesLanes)(patch); }
+void CollectLongEdges(Patch& patch, bool keep_numbers) {
+  HWY_DYNAMIC_DISPATCH(CollectLongEdgesLanes)(patch, keep_numbers);
+}
 
 void InterleaveLeaves(Patch& patch) { HWY_DYNAMIC_DISPATCH(InterleaveLeavesLanes)(patch); }
 

@@ -280,11 +280,10 @@ Result<WeldedShape> PreparedSurface::Weld(const WeldLimits& limits) const {
   PatchStep step;
   for (uint32_t level = 0; (step = patch.Step(rules_, level)) == PatchStep::kSplit; ++level) {
     for (size_t k = 0; k < patch.long_count; ++k) {
-      const uint32_t edge = patch.long_edge[k];
-      welded.identity.push_back(MidpointIdentity(welded.identity[patch.edge_a[edge]],
-                                                 welded.identity[patch.edge_b[edge]]));
+      welded.identity.push_back(
+          MidpointIdentity(welded.identity[patch.long_a[k]], welded.identity[patch.long_b[k]]));
       welded.level.push_back(static_cast<uint8_t>(level + 1));
-      welded.coast.push_back(rules_.coast && sites[patch.edge_site[edge]].coast > 0);
+      welded.coast.push_back(rules_.coast && sites[patch.edge_site[patch.long_edge[k]]].coast > 0);
     }
   }
   if (step == PatchStep::kFull) return too_many;
