@@ -3,7 +3,8 @@
 // affine   deviation = sigma A (rest length)^H c(H) stretch      fBm of that H
 // similar  offset = r g (current length), |r g| <= kSimilarClamp; r from the dimension D = 2 - H:
 //          2 E[(1/4 + min(r |g|, kSimilarClamp)^2)^(D/2)] = 1
-// shih     offset = Delta_i g move (current length), Delta_i = sigma 2^(-iH) sqrt(1/2) sqrt(1 - 2^(2H-2))
+// shih     offset = Delta_i g move (current length),
+//          Delta_i = sigma 2^(-iH) sqrt(1/2) sqrt(1 - 2^(2H-2))
 //          [T: shrinks twice, so it measures as H = 1 whatever H is asked]
 #pragma once
 
@@ -11,8 +12,9 @@
 
 namespace fjord {
 
-// Offsets of the similar law never reach further than this share of the segment, so that a segment's
-// children are shorter than .71 of it and everything below it stays within a finite reach.
+// Offsets of the similar law never reach further than this share of the segment, so that a
+// segment's children are shorter than .71 of it and everything below it stays within a finite
+// reach.
 inline constexpr double kSimilarClamp = .49;
 
 // 2^-H sqrt(1 - 2^(2H-2)); 0 at H = 1.

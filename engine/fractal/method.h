@@ -1,15 +1,16 @@
-// What a fractal method is: it takes the coarse shape of one frame and makes fine elements of it, in
-// two forms that give the same vertices bit for bit:
+// What a fractal method is: it takes the coarse shape of one frame and makes fine elements of it,
+// in two forms that give the same vertices bit for bit:
 // - streamed, root by root, for rendering: nothing is kept, memory follows depth, parts that cannot
 //   touch the picture are never made;
 // - welded, for files and checks: shared vertices once, each with its 128-bit identity.
 //
 // A prepared object is immutable and may be used by any number of threads. A method is one file and
-// one line in registry.cpp; parser, presets, docs, tests, benches and the exactness gate loop over it.
+// one line in registry.cpp; parser, presets, docs, tests, benches and the exactness gate loop over
+// it.
 //
 // Invariants
-// M1 A new vertex depends on the edge it halves and the settings alone: no neighbour, order, thread,
-//    frame number or machine (S3, S4, S24).
+// M1 A new vertex depends on the edge it halves and the settings alone: no neighbour, order,
+//    thread, frame number or machine (S3, S4, S24).
 // M2 Everything that Stream(root) emits lies inside Bound(root).
 // M3 Streamed and welded vertices have equal bits, at every SIMD level.
 // M4 Stream always ends: no edge passes settings.max_level.
@@ -31,12 +32,12 @@ namespace fjord {
 
 // The coarse shape of one object in one frame. Triangles or a curve, never both.
 struct CoarseShape {
-  std::vector<Vec3> now;             // object space
-  std::vector<Vec3> rest;            // as many as now
-  std::vector<Triangle> triangles;   // counter-clockwise from outside, smallest index first
-  bool curve = false;                // now, in order, is a polyline
+  std::vector<Vec3> now;            // object space
+  std::vector<Vec3> rest;           // as many as now
+  std::vector<Triangle> triangles;  // counter-clockwise from outside, smallest index first
+  bool curve = false;               // now, in order, is a polyline
   bool closed = false;
-  std::vector<Rgb> colors;           // none, or one a vertex
+  std::vector<Rgb> colors;  // none, or one a vertex
 };
 
 struct Ball {
@@ -47,19 +48,19 @@ struct Ball {
 // 64 bytes, the unit of the streaming kernels.
 struct StreamVertex {
   Vec3 position;
-  Vec3 direction;        // unit normal that its children's directions are made from
-  uint64_t id;           // Identity::lo
+  Vec3 direction;  // unit normal that its children's directions are made from
+  uint64_t id;     // Identity::lo
   float stretch;
-  float eye_distance2;   // squared distance to Fineness::eye in the rest pose
+  float eye_distance2;  // squared distance to Fineness::eye in the rest pose
 };
 static_assert(sizeof(StreamVertex) == 64);
 
 // Leaves of one patch. Spans are valid during the call only.
 struct StreamBatch {
   std::span<const StreamVertex> vertices;
-  std::span<const Triangle> triangles;                  // index vertices
-  std::span<const std::array<uint32_t, 2>> segments;    // curves: index vertices, in order
-  std::span<const Rgb> colors;                          // none, or one a vertex
+  std::span<const Triangle> triangles;                // index vertices
+  std::span<const std::array<uint32_t, 2>> segments;  // curves: index vertices, in order
+  std::span<const Rgb> colors;                        // none, or one a vertex
 };
 
 // What the consumer of a stream says. Called from the thread that streams.
@@ -86,14 +87,15 @@ struct StreamStats {
 };
 
 // Welded vertices, sorted by no more than the order in which they were made: coarse ones first.
+// Those of a curve: in the order of the chain.
 struct WeldedShape {
-  Mesh mesh;                          // triangles; empty faces for a curve
+  Mesh mesh;  // triangles; empty faces for a curve
   bool curve = false;
-  bool closed = false;                // curve
-  std::vector<Identity> identity;     // one a point
-  std::vector<uint8_t> level;         // one a point
-  std::vector<Vec3> direction;        // one a point
-  std::vector<uint8_t> coast;         // one a point: lies on a coast
+  bool closed = false;             // curve
+  std::vector<Identity> identity;  // one a point
+  std::vector<uint8_t> level;      // one a point
+  std::vector<Vec3> direction;     // one a point
+  std::vector<uint8_t> coast;      // one a point: lies on a coast
 };
 
 struct WeldLimits {
@@ -115,17 +117,17 @@ enum class Takes : uint8_t { kTriangles = 1, kCurve = 2 };
 
 struct MethodInfo {
   std::string_view name;
-  uint32_t version;                   // in the frame key of every frame that uses it (D5)
+  uint32_t version;  // in the frame key of every frame that uses it (D5)
   std::string_view summary;
   Takes takes;
-  bool streams_exactly;               // states its reach; false: made whole, in bounded pieces
-  FractalSettings defaults;           // Law, Direction, Variant never kDefault here
-  std::span<const std::string_view> knobs;       // names from AllKnobs()
+  bool streams_exactly;      // states its reach; false: made whole, in bounded pieces
+  FractalSettings defaults;  // Law, Direction, Variant never kDefault here
+  std::span<const std::string_view> knobs;  // names from AllKnobs()
   std::span<const Law> laws;
   std::span<const Direction> directions;
   std::span<const Variant> variants;
   std::span<const Split> splits;
-  bool additions;                     // knows Increments::kAdditions (affine, EDGE, FIXED)
+  bool additions;  // knows Increments::kAdditions (affine, EDGE, FIXED)
   // `view` is needed for Split::kAdaptive only, may be null otherwise.
   Result<std::unique_ptr<PreparedFractal>> (*prepare)(CoarseShape shape,
                                                       const FractalSettings& settings,

@@ -52,7 +52,7 @@ struct FractalSettings {
 // One number a user can turn. `name` is the field of scene.proto's Fractal.
 struct Knob {
   std::string_view name;
-  double FractalSettings::* value;
+  double FractalSettings::*value;
   double lowest;
   double highest;
   std::string_view effect;  // what one sees when it alone is turned up
