@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/formats/limits.h"
-#include "engine/formats/read_file.h"
+#include "engine/formats/read_bytes.h"
 #include "engine/formats/readers.h"
 #include "engine/formats/text.h"
 
@@ -182,7 +182,7 @@ Result<ShapeFile> ReadShape(std::string_view bytes, const std::string& name) {
 }
 
 Result<ShapeFile> ReadShapeFile(const std::string& path) {
-  auto bytes = ReadFile(path, limits::kFileBytes);
+  auto bytes = ReadBytes(path, limits::kFileBytes);
   if (!bytes) return bytes.error();
   return ReadShape(*bytes, path);
 }

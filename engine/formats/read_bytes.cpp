@@ -1,4 +1,4 @@
-#include "engine/formats/read_file.h"
+#include "engine/formats/read_bytes.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -17,7 +17,7 @@ Error TooLarge(size_t most, const Place& place) {
 
 }  // namespace
 
-Result<std::string> ReadFile(const std::string& path, size_t most) {
+Result<std::string> ReadBytes(const std::string& path, size_t most) {
   const Place place = {path, 0, 0};
   std::error_code failed;
   if (std::filesystem::is_directory(path, failed)) {

@@ -1,4 +1,4 @@
-#include "engine/formats/read_file.h"
+#include "engine/formats/read_bytes.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,15 +12,15 @@
 namespace fjord {
 namespace {
 
-class ReadFileTest : public testing::Test {
+class ReadBytesTest : public testing::Test {
  protected:
-  ReadFileTest()
+  ReadBytesTest()
       : folder_(std::filesystem::temp_directory_path() /
                 ("fjord-read-" + std::to_string(getpid()) + "-" +
                  testing::UnitTest::GetInstance()->current_test_info()->name())) {
     std::filesystem::create_directories(folder_);
   }
-  ~ReadFileTest() override { std::filesystem::remove_all(folder_); }
+  ~ReadBytesTest() override { std::filesystem::remove_all(folder_); }
 
   std::string Write(const std::string& name, const std::string& bytes) {
     const std::string path = folder_ / name;
@@ -31,33 +31,33 @@ class ReadFileTest : public testing::Test {
   const std::filesystem::path folder_;
 };
 
-TEST_F(ReadFileTest, ReadsAllBytes) {
+TEST_F(ReadBytesTest, ReadsAllBytes) {
   std::string bytes(3'000'001, 'x');
   bytes[7] = '\0';
-  EXPECT_EQ(ReadFile(Write("a b", bytes), bytes.size()).value(), bytes);
-  EXPECT_EQ(ReadFile(Write("empty", ""), 10).value(), "");
+  EXPECT_EQ(ReadBytes(Write("a b", bytes), bytes.size()).value(), bytes);
+  EXPECT_EQ(ReadBytes(Write("empty", ""), 10).value(), "");
 }
 
-TEST_F(ReadFileTest, SaysWhatIsWrong) {
+TEST_F(ReadBytesTest, SaysWhatIsWrong) {
   const std::string missing = folder_ / "none.std";
-  ExpectError(ReadFile(missing, 10), missing, "no such file");
-  EXPECT_EQ(ReadFile(missing, 10).error().code, ErrorCode::kNotFound);
-  ExpectError(ReadFile(folder_, 10), folder_, "is a folder");
+  ExpectError(ReadBytes(missing, 10), missing, "no such file");
+  EXPECT_EQ(ReadBytes(missing, 10).error().code, ErrorCode::kNotFound);
+  ExpectError(ReadBytes(folder_, 10), folder_, "is a folder");
   const std::string long_one = Write("long", "12345678901");
-  ExpectError(ReadFile(long_one, 10), long_one, "larger than 10 bytes");
-  EXPECT_EQ(ReadFile(long_one, 10).error().code, ErrorCode::kLimit);
-  EXPECT_EQ(ReadFile("/dev/zero", 100'000).error().code, ErrorCode::kLimit);
+  ExpectError(ReadBytes(long_one, 10), long_one, "larger than 10 bytes");
+  EXPECT_EQ(ReadBytes(long_one, 10).error().code, ErrorCode::kLimit);
+  EXPECT_EQ(ReadBytes("/dev/zero", 100'000).error().code, ErrorCode::kLimit);
 }
 
 // Two gigabytes that take no space on the disk.
-TEST_F(ReadFileTest, HugeFilesAreRefusedWithoutReadingThem) {
+TEST_F(ReadBytesTest, HugeFilesAreRefusedWithoutReadingThem) {
   const std::string path = Write("huge.std", "data 3 1\n");
   std::filesystem::resize_file(path, uint64_t{2} << 30);
   const auto shape = ReadShapeFile(path);
   ExpectError(shape, path, "larger than");
 }
 
-TEST_F(ReadFileTest, ShapesByPath) {
+TEST_F(ReadBytesTest, ShapesByPath) {
   EXPECT_TRUE(ReadShapeFile(Write("t.std", "data 3 1\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3\n")));
 }
 

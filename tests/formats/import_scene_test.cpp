@@ -1,0 +1,74 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/formats/import.h"
+#include "engine/scene/load.h"
+#include "tests/formats/expect_error.h"
+
+namespace fjord {
+namespace {
+
+const char* const kKeyed =
+    "parameters\nmaxlevel 10\nepsilon .1\nfixvl .4\nseed 71\nH-Fdim .3\nsigma .5\n";
+const char* const kPositional = "100\n750\n71\n0.7\n1\n";
+
+v1::Scene Load(const std::string& text, const std::string& bytes) {
+  const LoadResult result = LoadSceneText(
+      text, "imported.scene", [&bytes](const v1::File&) { return Result<std::string>(bytes); });
+  for (const Error& error : result.errors) ADD_FAILURE() << error.ToString() << "\n" << text;
+  return result.loaded.scene;
+}
+
+v1::Scene Import(const std::string& bytes, const std::string& path, const char* par) {
+  const ShapeFile shape = ReadShape(bytes, path).value();
+  if (par == nullptr) return Load(SceneTextFromShape(shape, path, nullptr, "").value(), bytes);
+  const ParFile read = ReadPar(par, "a.par").value();
+  return Load(SceneTextFromShape(shape, path, &read, "a.par").value(), bytes);
+}
+
+TEST(ImportSceneTest, S27_WhatImportWritesLoadsWithoutADefect) {
+  for (const char* file : {"taiwan.std", "taiwan_coast.std", "taiwan_relief.std"}) {
+    const std::string bytes = ReadTestFile(std::string("examples/data/") + file);
+    for (const char* par : {static_cast<const char*>(nullptr), kKeyed, kPositional}) {
+      EXPECT_EQ(Import(bytes, file, par).objects_size(), 1);
+    }
+  }
+}
+
+TEST(ImportSceneTest, S27_ParametersArrive) {
+  const std::string bytes = ReadTestFile("examples/data/taiwan_relief.std");
+  const v1::Fractal keyed = Import(bytes, "a.std", kKeyed).objects(0).fractal();
+  EXPECT_EQ(keyed.max_level(), 10u);
+  EXPECT_EQ(keyed.epsilon(), .1);
+  EXPECT_EQ(keyed.move(), .4);
+  EXPECT_EQ(keyed.seed(), 71u);
+  EXPECT_EQ(keyed.h(), .3);
+  EXPECT_EQ(keyed.sigma(), .5);
+  EXPECT_EQ(keyed.law(), v1::Fractal::SHIH);
+  EXPECT_TRUE(keyed.coast());
+  EXPECT_EQ(Import(bytes, "a.std", kPositional).objects(0).fractal().epsilon(), .075);
+}
+
+TEST(ImportSceneTest, OtherFormatsAndFormsLoadToo) {
+  struct Case {
+    const char* path;
+    const char* bytes;
+  };
+  for (const Case& c : {
+           Case{"a b.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 1 0 0 1\nf 1 2 3\n"},
+           Case{"closed.obj",
+                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"},
+           Case{"line.svg", "<svg><path d='M0 0L1 1L2 0'/></svg>"},
+           Case{"two.svg", "<svg><path d='M0 0L1 1L2 0z'/><path d='M5 5L6 6'/></svg>"},
+           Case{"tall.svg", "<svg><path d='M0 0L0 7'/></svg>"},
+           Case{"small.obj", "v 0 0 0\nv 1e-9 0 0\nv 0 1e-9 0\nf 1 2 3\n"},
+           Case{"far.obj", "v 1e9 1e9 0\nv 1000000001 1e9 0\nv 1e9 1000000001 5\nf 1 2 3\n"},
+           Case{"\"odd\\\n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+       }) {
+    SCOPED_TRACE(c.path);
+    EXPECT_EQ(Import(c.bytes, c.path, nullptr).objects_size(), 1);
+  }
+}
+
+}  // namespace
+}  // namespace fjord
