@@ -61,6 +61,10 @@ void Patch::AddTriangle(const Triangle& corners, const Triangle& edges, uint32_t
 }
 
 PatchStep Patch::Step(const SurfaceRules& rules, uint32_t level) {
+  if (edge_count == run_begin) {
+    EndTriangles();
+    return PatchStep::kDone;
+  }
   edge_slot.Reserve(edge_count, run_begin);
   for (PatchBuffer<uint32_t>* list : {&long_edge, &long_a, &long_b}) {
     list->Reserve(edge_count - run_begin, 0);
