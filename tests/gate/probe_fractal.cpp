@@ -66,17 +66,28 @@ class LeafSet : public StreamSink {
   uint64_t squares_ = 0;
 };
 
-// Points in order of identity, faces by the identities of their points.
+// Points in order of identity and content (direction FACE makes several points of one identity),
+// faces by the contents of their points.
 Digest DigestOf(const WeldedShape& shape) {
-  std::vector<uint32_t> order(shape.mesh.points.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(),
-            [&](uint32_t a, uint32_t b) { return shape.identity[a] < shape.identity[b]; });
-  std::vector<uint32_t> place(order.size());
+  const size_t count = shape.mesh.points.size();
+  std::vector<uint64_t> content(count);
+  for (size_t v = 0; v < count; ++v) {
+    const Vec3& p = shape.mesh.points[v];
+    const Vec3& d = shape.direction[v];
+    uint64_t hash = Mix64(shape.identity[v].lo) ^ shape.identity[v].hi;
+    for (const double x : {p.x, p.y, p.z, d.x, d.y, d.z}) {
+      hash = Mix64(hash + std::bit_cast<uint64_t>(x));
+    }
+    content[v] = Mix64(hash + shape.level[v] * 2u + shape.coast[v]);
+  }
+  std::vector<size_t> order(count);
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return shape.identity[a] != shape.identity[b] ? shape.identity[a] < shape.identity[b]
+                                                  : content[a] < content[b];
+  });
   Canon canon;
-  for (uint32_t i = 0; i < order.size(); ++i) {
-    const uint32_t v = order[i];
-    place[v] = i;
+  for (const size_t v : order) {
     canon.Add(shape.identity[v].lo);
     canon.Add(shape.identity[v].hi);
     const Vec3& p = shape.mesh.points[v];
@@ -85,18 +96,18 @@ Digest DigestOf(const WeldedShape& shape) {
     canon.Add(shape.level[v], 1);
     canon.Add(shape.coast[v], 1);
   }
-  std::vector<std::vector<uint32_t>> faces;
+  std::vector<std::vector<uint64_t>> faces;
   size_t at = 0;
   for (const uint32_t size : shape.mesh.face_size) {
-    std::vector<uint32_t> face;
-    for (uint32_t i = 0; i < size; ++i) face.push_back(place[shape.mesh.face_vertex[at + i]]);
+    std::vector<uint64_t> face;
+    for (uint32_t i = 0; i < size; ++i) face.push_back(content[shape.mesh.face_vertex[at + i]]);
     at += size;
     std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
     faces.push_back(std::move(face));
   }
   std::sort(faces.begin(), faces.end());
   for (const auto& face : faces) {
-    for (const uint32_t v : face) canon.Add(v, 4);
+    for (const uint64_t v : face) canon.Add(v);
   }
   return canon.Finish();
 }
