@@ -62,7 +62,8 @@ std::vector<int32_t> Edges(int32_t from, int32_t to, int32_t step) {
 
 double TileMargin(double line_width) { return 1 + .75 * line_width; }
 
-TileFrustum::TileFrustum(const Projection& to, const TileRect& rect, double margin) {
+TileFrustum::TileFrustum(const Projection& to, const TileRect& rect, double margin,
+                         bool open_left) {
   const std::array<double, 4> one = {0, 0, 0, 1};
   const std::array<double, 4>& w = to.orthographic ? one : to.z;
   const auto side = [&](const std::array<double, 4>& row, double at, double sign) {
@@ -70,7 +71,7 @@ TileFrustum::TileFrustum(const Projection& to, const TileRect& rect, double marg
     for (int i = 0; i < 4; ++i) plane[i] = sign * (row[i] - at * kFixedOne * w[i]);
     Add(plane);
   };
-  side(to.x, rect.x - margin, 1);
+  if (!open_left) side(to.x, rect.x - margin, 1);
   side(to.x, rect.right() + margin, -1);
   side(to.y, rect.y - margin, 1);
   side(to.y, rect.bottom() + margin, -1);
@@ -120,7 +121,9 @@ TileLists BinRoots(const TileRect& region, int32_t tile_size, std::span<const Cu
     for (size_t root = 0; root < object.prepared->RootCount(); ++root) {
       const Ball ball = object.prepared->Bound(root);
       if (Row(object.to.z, ball.center) + near_length * ball.radius < object.to.near) continue;
-      const Span across = TilesOf(BallRange(object.to, object.to.x, ball, object.margin), columns);
+      Range range = BallRange(object.to, object.to.x, ball, object.margin);
+      if (object.open_left) range.high = std::numeric_limits<double>::infinity();
+      const Span across = TilesOf(range, columns);
       const Span down = TilesOf(BallRange(object.to, object.to.y, ball, object.margin), rows);
       if (across.first > across.last || down.first > down.last) continue;
       touches.push_back({{static_cast<uint32_t>(o), static_cast<uint32_t>(root)}, across, down});

@@ -19,7 +19,7 @@ double TileMargin(double line_width);
 
 class TileFrustum {
  public:
-  TileFrustum(const Projection& to, const TileRect& rect, double margin);
+  TileFrustum(const Projection& to, const TileRect& rect, double margin, bool open_left);
 
   // May anything within `reach` of the triangle be seen in the tile?
   bool MayTouch(const Vec3& a, const Vec3& b, const Vec3& c, double reach) const;
@@ -52,6 +52,8 @@ struct CullObject {
   const PreparedFractal* prepared = nullptr;
   Projection to;
   double margin = 1;  // TileMargin
+  // What lies left of a tile is wanted too (winding numbers are counted from the left).
+  bool open_left = false;
 };
 
 // Tiles lie on the grid of the whole picture, cut to `region`.

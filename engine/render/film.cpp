@@ -39,13 +39,13 @@ void Film::FindOwners(TileBuffer* tile, int32_t y) {
       owner[x] = hit[x] == kNoHit ? kBackground : tile->record(hit[x]).object;
     }
     if (!setup_.sea) continue;
-    const SeaPlane& sea = *setup_.sea;
+    const ViewPlane& sea = *setup_.sea;
     const double sample_y = static_cast<double>(y * kFixedOne + tile->places()[s].y);
     for (size_t x = 0; x < width; ++x) {
       const int32_t pixel = rect.x + static_cast<int32_t>(x);
       const double at =
           sea.At(static_cast<double>(pixel * kFixedOne + tile->places()[s].x), sample_y);
-      if (!sea.Seen(at) || !(at - sea.behind > depth[x])) continue;
+      if (!sea.Seen(at) || !(at - sea.rounding > depth[x])) continue;
       owner[x] = kSea;
       depth[x] = at;
     }

@@ -26,6 +26,33 @@ std::array<float, 9> NormalMatrix(const std::array<double, 9>& cofactors) {
   return matrix;
 }
 
+// The plane of a closed coarse curve: its mean place and its area vector (Newell). None for curves
+// that are not filled, have no area, or reach behind the eye, where inside and outside are not what
+// they seem.
+std::optional<ViewPlane> FillPlane(const View& view, const BuiltObject& object,
+                                   const Projection& to) {
+  const CoarseShape& shape = *object.shape;
+  if (!object.material.fill || !shape.curve || !shape.closed || shape.now.size() < 3) {
+    return std::nullopt;
+  }
+  const Vec3 length(to.z[0], to.z[1], to.z[2]);
+  for (size_t root = 0; root < object.prepared->RootCount(); ++root) {
+    const Ball ball = object.prepared->Bound(root);
+    if (!(Row(to.z, ball.center) - Length(length) * ball.radius > view.near)) return std::nullopt;
+  }
+  Vec3 mean(0), area(0);
+  for (const Vec3& p : shape.now) mean += p;
+  mean = mean * (1. / static_cast<double>(shape.now.size()));
+  for (size_t i = 0; i < shape.now.size(); ++i) {
+    area += glm::cross(shape.now[i] - mean, shape.now[(i + 1) % shape.now.size()] - mean);
+  }
+  double determinant = 0;
+  const std::array<double, 9> c = Cofactors(object.transform, &determinant);
+  const Vec3 normal(glm::dot(Vec3(c[0], c[1], c[2]), area), glm::dot(Vec3(c[3], c[4], c[5]), area),
+                    glm::dot(Vec3(c[6], c[7], c[8]), area));
+  return MakeViewPlane(view, Apply(object.transform, mean), Unit(normal));
+}
+
 }  // namespace
 
 FrameSetup::FrameSetup(const BuiltFrame& built)
@@ -73,12 +100,14 @@ FrameSetup::FrameSetup(const BuiltFrame& built)
       setup.geometry.height_offset = -glm::dot(row, moved);
     }
     if (!material.ramp.empty()) setup.geometry.height_offset -= material.ramp.front().height;
+    setup.fill = FillPlane(view, object, setup.to);
     objects.push_back(setup);
     cull.push_back({object.prepared.get(), setup.to,
-                    TileMargin(object.shape->curve ? material.line_width : 0)});
+                    TileMargin(object.shape->curve ? material.line_width : 0),
+                    setup.fill.has_value()});
   }
   if (built.sea) {
-    sea = MakeSeaPlane(view, built.sea->level);
+    sea = MakeViewPlane(view, Vec3(0, 0, built.sea->level), Vec3(0, 0, 1));
     sea_surface.specular = built.sea->specular;
     sea_surface.shininess = built.sea->shininess;
     sea_surface.ambient = built.ambient;

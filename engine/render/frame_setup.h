@@ -7,9 +7,9 @@
 #include "engine/render/built_frame.h"
 #include "engine/render/cull.h"
 #include "engine/render/raster.h"
-#include "engine/render/sea.h"
 #include "engine/render/shade.h"
 #include "engine/render/view.h"
+#include "engine/render/view_plane.h"
 
 namespace fjord {
 
@@ -17,6 +17,7 @@ struct ObjectSetup {
   Projection to;
   Attributes attributes;
   double line_width = 1;
+  std::optional<ViewPlane> fill;  // closed curves that are filled
   Surface surface;
   HitGeometry geometry;
 };
@@ -29,7 +30,7 @@ struct FrameSetup {
   std::vector<ObjectSetup> objects;
   std::vector<CullObject> cull;
   std::vector<ShadeLight> lights;
-  std::optional<SeaPlane> sea;
+  std::optional<ViewPlane> sea;
   Surface sea_surface;
   HitGeometry sea_geometry;
 };

@@ -5,16 +5,12 @@
 
 #include "engine/base/clamp.h"
 #include "engine/render/clip.h"
+#include "engine/render/integer.h"
 #include "engine/render/raster_source.h"
 #include "engine/render/triangle_setup.h"
 
 namespace fjord {
 namespace {
-
-int64_t FloorDivide(int64_t a, int64_t b) {  // b > 0
-  const int64_t q = a / b;
-  return a % b < 0 ? q - 1 : q;
-}
 
 // Edge p -> q of a triangle turned so that its inside is >= 0. Guarded coordinates keep every
 // product below 2^62.
@@ -83,7 +79,9 @@ void Raster::Draw(const StreamBatch& batch) {
       clipped ? DrawClipped(batch, triangle) : DrawWhole(batch, triangle);
     }
   }
-  for (const auto& segment : batch.segments) DrawStroke(batch, segment);
+  if (line_width_ > 0) {
+    for (const auto& segment : batch.segments) DrawStroke(batch, segment);
+  }
   tile_->CompactIfLarge();
 }
 

@@ -41,6 +41,8 @@ class Raster {
   // All triangles and segments of a batch.
   void Draw(const StreamBatch& batch);
 
+  const TileBuffer& tile() const { return *tile_; }
+  const Projection& projection() const { return to_; }
   size_t Bytes() const;
 
  private:

@@ -8,6 +8,7 @@
 #include "engine/base/parallel.h"
 #include "engine/render/film.h"
 #include "engine/render/frame_setup.h"
+#include "engine/render/outline_fill.h"
 
 namespace fjord {
 namespace {
@@ -22,18 +23,24 @@ bool IsSet(const std::atomic<bool>* cancel) {
 // Takes what a fractal streams into one tile.
 class TileSink final : public StreamSink {
  public:
-  TileSink(const TileFrustum& frustum, const std::atomic<bool>* cancel, Raster* raster)
-      : frustum_(frustum), cancel_(cancel), raster_(raster) {}
+  // fill: null, or where outlines go too.
+  TileSink(const TileFrustum& frustum, const std::atomic<bool>* cancel, Raster* raster,
+           OutlineFill* fill)
+      : frustum_(frustum), cancel_(cancel), raster_(raster), fill_(fill) {}
 
   bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, double reach) override {
     return !IsSet(cancel_) && frustum_.MayTouch(a, b, c, reach);
   }
-  void Take(const StreamBatch& batch) override { raster_->Draw(batch); }
+  void Take(const StreamBatch& batch) override {
+    raster_->Draw(batch);
+    if (fill_ != nullptr) fill_->Add(raster_->tile(), raster_->projection(), batch);
+  }
 
  private:
   const TileFrustum& frustum_;
   const std::atomic<bool>* cancel_;
   Raster* raster_;
+  OutlineFill* fill_;
 };
 
 // The buffers one thread needs, kept from tile to tile.
@@ -42,11 +49,13 @@ struct Worker {
 
   TileBuffer buffer;
   Raster raster;
+  OutlineFill fill;
   Film film;
   std::vector<float> rgb;
 
   size_t Bytes() const {
-    return buffer.Bytes() + raster.Bytes() + film.Bytes() + rgb.capacity() * sizeof(float);
+    return buffer.Bytes() + raster.Bytes() + fill.Bytes() + film.Bytes() +
+           rgb.capacity() * sizeof(float);
   }
 };
 
@@ -92,9 +101,12 @@ class RegionRenderer {
     while (i < end) {
       const uint32_t object = lists_.refs[i].object;
       const ObjectSetup& setup = setup_.objects[object];
-      const TileFrustum frustum(setup.to, rect, setup_.cull[object].margin);
+      const TileFrustum frustum(setup.to, rect, setup_.cull[object].margin,
+                                setup_.cull[object].open_left);
       worker->raster.StartObject(object, setup.to, setup.attributes, setup.line_width);
-      TileSink sink(frustum, options_.cancel, &worker->raster);
+      if (setup.fill) worker->fill.Start(worker->buffer);
+      TileSink sink(frustum, options_.cancel, &worker->raster,
+                    setup.fill ? &worker->fill : nullptr);
       for (; i < end && lists_.refs[i].object == object; ++i) {
         if (IsSet(options_.cancel)) return made;
         const StreamStats root =
@@ -104,6 +116,7 @@ class RegionRenderer {
         made.culled += root.culled;
         made.depth = std::max(made.depth, root.depth);
       }
+      if (setup.fill) worker->fill.Finish(*setup.fill, object, &worker->buffer);
     }
     return made;
   }

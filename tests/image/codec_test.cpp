@@ -1,0 +1,127 @@
+#include "engine/image/codec.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "engine/base/random.h"
+#include "gtest/gtest.h"
+
+namespace fjord {
+namespace {
+
+constexpr PixelFormat kFormats[] = {PixelFormat::kPng8, PixelFormat::kPng16, PixelFormat::kExrHalf,
+                                    PixelFormat::kExrFloat};
+
+Picture Noise(uint32_t width, uint32_t height, PixelFormat format) {
+  std::vector<float> linear(size_t{width} * height * 3);
+  for (size_t i = 0; i < linear.size(); ++i) {
+    linear[i] = static_cast<float>(Mix64(i) >> 40) * 0x1p-24f;
+  }
+  return Quantise(width, height, format, linear);
+}
+
+TEST(CodecTest, WhatIsWrittenIsRead) {
+  const PictureInfo info = {{"frame_key", "abc"}, {"object_1", "method=surface seed=7 H=0.7"}};
+  for (const PixelFormat format : kFormats) {
+    for (const auto& [width, height] : {std::pair{1u, 1u}, {37u, 23u}, {300u, 200u}}) {
+      const Picture picture = Noise(width, height, format);
+      const Result<std::string> bytes = EncodePicture(picture, info);
+      ASSERT_TRUE(bytes.ok()) << bytes.error().message;
+      PictureInfo read;
+      const Result<Picture> back = DecodePicture(*bytes, "test", &read);
+      ASSERT_TRUE(back.ok()) << back.error().message;
+      EXPECT_EQ(back->width, width);
+      EXPECT_EQ(back->height, height);
+      EXPECT_EQ(back->format, format);
+      EXPECT_EQ(back->bytes, picture.bytes);
+      EXPECT_EQ(PixelDigest(*back), PixelDigest(picture));
+      for (const auto& entry : info) {
+        EXPECT_NE(std::find(read.begin(), read.end(), entry), read.end()) << entry.first;
+      }
+    }
+  }
+}
+
+TEST(CodecTest, EqualPicturesGiveEqualFilesWithoutDatesOrNames) {
+  for (const PixelFormat format : kFormats) {
+    const Picture picture = Noise(20, 10, format);
+    const Result<std::string> a = EncodePicture(picture, {{"frame_key", "k"}});
+    const Result<std::string> b = EncodePicture(picture, {{"frame_key", "k"}});
+    ASSERT_TRUE(a.ok() && b.ok());
+    EXPECT_EQ(*a, *b);
+    for (const char* word : {"OpenImageIO", "Software", "capDate", "DateTime", "tIME", "/"}) {
+      EXPECT_EQ(a->find(word), std::string::npos) << word << " in " << FileEnding(format);
+    }
+  }
+}
+
+TEST(CodecTest, BrokenBytesAreErrorsThatNameTheFile) {
+  for (const PixelFormat format : {PixelFormat::kPng8, PixelFormat::kExrHalf}) {
+    const Result<std::string> whole = EncodePicture(Noise(40, 40, format), {});
+    ASSERT_TRUE(whole.ok());
+    for (const size_t length : {size_t{0}, size_t{3}, size_t{8}, size_t{60}, whole->size() / 2}) {
+      const Result<Picture> read = DecodePicture(whole->substr(0, length), "cut.png");
+      ASSERT_FALSE(read.ok()) << length;
+      EXPECT_EQ(read.error().place.file, "cut.png");
+    }
+  }
+  EXPECT_FALSE(DecodePicture("GIF89a and more", "x").ok());
+}
+
+TEST(CodecTest, SizesBeyondTheLimitAreRefusedBeforeAnythingIsHeld) {
+  // A PNG header that claims 20000 x 20000.
+  const Result<std::string> small = EncodePicture(Noise(4, 4, PixelFormat::kPng8), {});
+  ASSERT_TRUE(small.ok());
+  std::string lie = *small;
+  lie[16] = lie[20] = 0, lie[17] = lie[21] = 0, lie[18] = lie[22] = 0x4e, lie[19] = lie[23] = 0x20;
+  EXPECT_FALSE(DecodePicture(lie, "lie.png").ok());
+}
+
+class WriteFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "fjord-write-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  static std::string Read(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  size_t FileCount() const {
+    return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+  }
+
+  std::string folder_;
+};
+
+TEST_F(WriteFileTest, WritesAndReplaces) {
+  const std::string path = folder_ + "/a b.png";
+  ASSERT_TRUE(WriteFileAtomically(path, "one").ok());
+  ASSERT_TRUE(WriteFileAtomically(path, std::string(3000000, 'x')).ok());
+  EXPECT_EQ(Read(path), std::string(3000000, 'x'));
+  EXPECT_EQ(FileCount(), 1u);
+}
+
+TEST_F(WriteFileTest, FailuresNameThePathAndLeaveNothing) {
+  const Result<> missing = WriteFileAtomically(folder_ + "/none/a.png", "x");
+  ASSERT_FALSE(missing.ok());
+  EXPECT_EQ(missing.error().code, ErrorCode::kIo);
+  EXPECT_EQ(missing.error().place.file, folder_ + "/none/a.png");
+  EXPECT_NE(missing.error().message.find("make the folder"), std::string::npos);
+  // A folder stands where the file should go.
+  ASSERT_EQ(mkdir((folder_ + "/taken").c_str(), 0777), 0);
+  std::ofstream(folder_ + "/taken/inside") << "x";
+  EXPECT_FALSE(WriteFileAtomically(folder_ + "/taken", "x").ok());
+  EXPECT_EQ(FileCount(), 1u);
+}
+
+}  // namespace
+}  // namespace fjord

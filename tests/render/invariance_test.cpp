@@ -1,0 +1,249 @@
+// One picture for every way of making it (D3, D4).
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include "engine/base/simd.h"
+#include "engine/geometry/primitives.h"
+#include "engine/render/build.h"
+#include "engine/render/tiles.h"
+#include "tests/render/scenes.h"
+
+namespace fjord {
+namespace {
+
+// A rough hill in perspective that leaves the picture on all sides, a shiny smooth ball that goes
+// through it, a curve, the sea, a local light.
+v1::FrameScene Mixed(uint32_t samples = 4) {
+  v1::FrameScene scene = PerspectiveScene(150, 101, {.3, -2.2, 1.3}, {0, 0, 0}, 40);
+  scene.mutable_output()->set_samples(samples);
+  Put(scene.mutable_background(), {.1, .2, .5, .7, .7, .6});
+  Put(scene.mutable_ambient(), {.1, .1, .15});
+  AddSun(&scene, {1, -.5, 1}, {1, .9f, .8f});
+  v1::FrameLight* lamp = scene.add_light();
+  lamp->set_local(true);
+  lamp->set_range(3);
+  Put(lamp->mutable_place(), {-.5, -.8, 1});
+  Put(lamp->mutable_color(), {.4, .2, .1});
+  const Result<Mesh> grid = MakeGrid(Vec3(3, 3, 0), 2, 2);
+  v1::FrameObject* hill = AddMesh(&scene, *grid, {.5f, .45f, .4f});
+  hill->mutable_material()->set_diffuse(.9);
+  for (const double v : {-.2, .2, .4, .1, .3, .9, .9, 1.}) hill->mutable_material()->add_ramp(v);
+  MakeRough(hill, .03, .3);
+  const Result<Mesh> ball = MakeEllipsoid(Vec3(.5), 24, 12);
+  v1::FrameMaterial* shiny = AddMesh(&scene, *ball, {.7f, .1f, .1f})->mutable_material();
+  shiny->set_diffuse(.7);
+  shiny->set_specular(.6);
+  shiny->set_shininess(31.5);
+  shiny->set_smooth(true);
+  v1::FrameObject* line =
+      AddObject(&scene, {{-1, -1, .4}, {-.2, .4, .9}, {.6, -.9, .3}, {1.2, .5, .6}}, {}, {1, 1, 0});
+  line->set_curve(true);
+  line->mutable_material()->set_line_width(2.5);
+  v1::FrameSea* sea = scene.mutable_sea();
+  sea->set_level(-.02);
+  Put(sea->mutable_color(), {.02, .06, .1});
+  sea->set_specular(.5);
+  sea->set_shininess(40);
+  return scene;
+}
+
+TEST(InvarianceTest, D4_OnePictureForEveryTileThreadAndPatch) {
+  const v1::FrameScene scene = Mixed();
+  const std::string wanted = DigestOf(scene);
+  for (const int tile : {16, 48, 64, 512}) {
+    EXPECT_EQ(DigestOf(scene, {.threads = 1, .tile_size = tile}), wanted) << "tile " << tile;
+  }
+  for (const int threads : {2, 7}) {
+    EXPECT_EQ(DigestOf(scene, {.threads = threads, .tile_size = 32}), wanted) << threads;
+  }
+  for (const size_t patch : {size_t{64}, size_t{300}, size_t{4096}}) {
+    EXPECT_EQ(DigestOf(scene, {.threads = 1, .tile_size = 64, .patch_size = patch}), wanted)
+        << "patch " << patch;
+  }
+}
+
+TEST(InvarianceTest, D2_OnePictureForEverySimdLevel) {
+  for (const uint32_t samples : {1u, 4u, 16u}) {
+    const v1::FrameScene scene = Mixed(samples);
+    ASSERT_TRUE(SetSimdLevel("best"));
+    const std::string wanted = DigestOf(scene);
+    for (const std::string& level : SimdLevels()) {
+      ASSERT_TRUE(SetSimdLevel(level));
+      EXPECT_EQ(DigestOf(scene), wanted) << level << ", samples " << samples;
+    }
+    ASSERT_TRUE(SetSimdLevel("best"));
+  }
+}
+
+TEST(InvarianceTest, S24_TheOrderOfTrianglesIsIrrelevant) {
+  v1::FrameScene scene = Mixed();
+  const std::string wanted = DigestOf(scene);
+  v1::FrameObject* hill = scene.mutable_object(0);
+  auto* vertex = hill->mutable_face_vertex();
+  ASSERT_EQ(hill->face_size(0), 3u);
+  for (int i = 0, j = vertex->size() - 3; i < j; i += 3, j -= 3) {
+    for (int k = 0; k < 3; ++k) vertex->SwapElements(i + k, j + (k + 1) % 3);
+  }
+  EXPECT_EQ(DigestOf(scene), wanted);
+}
+
+TEST(InvarianceTest, ATileIsThatPartOfTheFrame) {
+  const v1::FrameScene scene = Mixed();
+  const Picture whole = Draw(scene);
+  const uint32_t rects[][4] = {{0, 0, 1, 1}, {37, 20, 64, 64}, {149, 100, 1, 1}, {10, 50, 140, 7}};
+  for (const auto& [x, y, width, height] : rects) {
+    const Result<RenderedFrame> tile = RenderTile(scene, x, y, width, height, {.threads = 1});
+    ASSERT_TRUE(tile.ok());
+    for (uint32_t j = 0; j < height; ++j) {
+      for (uint32_t i = 0; i < width; ++i) {
+        ASSERT_EQ(At(tile->picture, i, j), At(whole, x + i, y + j)) << x + i << ' ' << y + j;
+      }
+    }
+  }
+  EXPECT_FALSE(RenderTile(scene, 100, 0, 51, 10, {}).ok());
+  EXPECT_FALSE(RenderTile(scene, 0, 0, 0, 1, {}).ok());
+}
+
+// Streams everything, whatever the sink wants.
+class Unculled final : public PreparedFractal {
+ public:
+  explicit Unculled(std::shared_ptr<const PreparedFractal> inner) : inner_(std::move(inner)) {}
+  size_t RootCount() const override { return inner_->RootCount(); }
+  Ball Bound(size_t) const override { return {Vec3(0), 1e6}; }
+  StreamStats Stream(size_t root, StreamSink& sink, size_t patch) const override {
+    class All final : public StreamSink {
+     public:
+      explicit All(StreamSink* sink) : sink_(sink) {}
+      bool Wants(const Vec3&, const Vec3&, const Vec3&, double) override { return true; }
+      void Take(const StreamBatch& batch) override { sink_->Take(batch); }
+
+     private:
+      StreamSink* sink_;
+    };
+    All all(&sink);
+    return inner_->Stream(root, all, patch);
+  }
+  Result<WeldedShape> Weld(const WeldLimits& limits) const override { return inner_->Weld(limits); }
+
+ private:
+  std::shared_ptr<const PreparedFractal> inner_;
+};
+
+TEST(InvarianceTest, S7_CullingLosesNothing) {
+  const Result<BuiltFrame> culled = BuildFrame(Mixed());
+  ASSERT_TRUE(culled.ok());
+  BuiltFrame unculled = *culled;
+  for (BuiltObject& object : unculled.objects) {
+    object.prepared = std::make_shared<Unculled>(object.prepared);
+  }
+  const TileRect whole{0, 0, 150, 101};
+  const Result<RenderedFrame> a = RenderRegion(*culled, whole, {.threads = 1, .tile_size = 32});
+  const Result<RenderedFrame> b = RenderRegion(unculled, whole, {.threads = 1, .tile_size = 32});
+  ASSERT_TRUE(a.ok() && b.ok());
+  EXPECT_EQ(PixelDigest(a->picture), PixelDigest(b->picture));
+  EXPECT_LT(a->stats.triangles, b->stats.triangles / 4);
+  EXPECT_GT(a->stats.culled, 0u);
+}
+
+TEST(InvarianceTest, OneTileAloneCostsLittleMoreThanItsShare) {
+  v1::FrameScene scene = Mixed();
+  scene.mutable_output()->set_width(512);
+  scene.mutable_output()->set_height(320);
+  scene.mutable_object(0)->mutable_fractal()->mutable_fineness()->set_epsilon(.006);
+  const Result<BuiltFrame> built = BuildFrame(scene);
+  ASSERT_TRUE(built.ok());
+  uint64_t alone = 0;
+  for (int32_t y = 0; y < 320; y += 64) {
+    for (int32_t x = 0; x < 512; x += 64) {
+      const auto tile = RenderRegion(*built, {x, y, 64, 64}, {.threads = 1, .patch_size = 256});
+      ASSERT_TRUE(tile.ok());
+      alone += tile->stats.triangles;
+    }
+  }
+  const auto whole = RenderRegion(*built, {0, 0, 512, 320}, {.threads = 1});
+  ASSERT_TRUE(whole.ok());
+  EXPECT_LT(static_cast<double>(alone), 2.5 * static_cast<double>(whole->stats.triangles));
+}
+
+TEST(InvarianceTest, MemoryFollowsTheTileNotTheTriangles) {
+  const auto peak = [](double epsilon) {
+    v1::FrameScene scene = Mixed();
+    scene.mutable_object(0)->mutable_fractal()->mutable_fineness()->set_epsilon(epsilon);
+    const auto rendered = RenderFrame(scene, {.threads = 1, .tile_size = 64});
+    EXPECT_TRUE(rendered.ok());
+    return static_cast<double>(rendered->stats.peak_bytes);
+  };
+  const double coarse = peak(.016), fine = peak(.004);
+  EXPECT_LT(fine, 1.1 * coarse);
+  EXPECT_LT(fine, 16e6);
+}
+
+TEST(InvarianceTest, CancelEndsEarly) {
+  const v1::FrameScene scene = Mixed();
+  std::atomic<bool> cancel{true};
+  const auto at_once = RenderFrame(scene, {.threads = 1, .cancel = &cancel});
+  ASSERT_FALSE(at_once.ok());
+  EXPECT_EQ(at_once.error().code, ErrorCode::kCancelled);
+  cancel = false;
+  int tiles = 0;
+  RenderOptions options{.threads = 1, .tile_size = 16};
+  options.cancel = &cancel;
+  options.progress = [&](double) { cancel = ++tiles == 3; };
+  EXPECT_FALSE(RenderFrame(scene, options).ok());
+  EXPECT_EQ(tiles, 3);
+}
+
+TEST(InvarianceTest, ProgressEndsAtOne) {
+  std::atomic<int> calls{0};
+  std::atomic<double> most{0};
+  RenderOptions options{.threads = 2, .tile_size = 64};
+  options.progress = [&](double share) {
+    ++calls;
+    double seen = most.load();
+    while (seen < share && !most.compare_exchange_weak(seen, share)) {
+    }
+  };
+  ASSERT_TRUE(RenderFrame(Mixed(), options).ok());
+  EXPECT_EQ(calls, 6);
+  EXPECT_EQ(most, 1);
+}
+
+TEST(InvarianceTest, AbsurdScenesAreErrors) {
+  const auto code = [](const v1::FrameScene& scene) {
+    const auto rendered = RenderFrame(scene, {.threads = 1});
+    EXPECT_FALSE(rendered.ok());
+    return rendered.ok() ? ErrorCode::kInternal : rendered.error().code;
+  };
+  v1::FrameScene scene = FlatScene(0, 10);
+  EXPECT_EQ(code(scene), ErrorCode::kLimit);
+  scene = FlatScene(20000, 10);
+  EXPECT_EQ(code(scene), ErrorCode::kLimit);
+  scene = FlatScene(10, 10);
+  scene.mutable_output()->set_samples(3);
+  EXPECT_EQ(code(scene), ErrorCode::kInvalid);
+  scene = FlatScene(10, 10);
+  scene.mutable_output()->set_format(9);
+  EXPECT_EQ(code(scene), ErrorCode::kInvalid);
+  scene = FlatScene(10, 10);
+  AddObject(&scene, {{0, 0, 0}, {1, 0, 0}, {0, 1e300, 0}}, {{0, 1, 2}}, Rgb(1));
+  EXPECT_EQ(code(scene), ErrorCode::kInvalid);
+  scene = FlatScene(10, 10);
+  AddObject(&scene, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 7}}, Rgb(1));
+  EXPECT_EQ(code(scene), ErrorCode::kInvalid);
+  EXPECT_FALSE(RenderFrame(Mixed(), {.threads = 1, .tile_size = 17}).ok());
+}
+
+TEST(InvarianceTest, C47_FilesDescribeSeedAndParameters) {
+  const Result<PictureInfo> info = DescribeFrame(Mixed());
+  ASSERT_TRUE(info.ok());
+  std::string all;
+  for (const auto& [key, value] : *info) all += key + ": " + value + "\n";
+  EXPECT_NE(all.find("frame_key: "), std::string::npos);
+  EXPECT_NE(all.find("object_1: method=surface version="), std::string::npos) << all;
+  EXPECT_NE(all.find("seed=7"), std::string::npos) << all;
+  EXPECT_NE(all.find("H=0.7"), std::string::npos) << all;
+}
+
+}  // namespace
+}  // namespace fjord
