@@ -50,7 +50,7 @@ TEST(TriangulateTest, ConvexFacesBecomeAFanFromTheSmallestVertex) {
   EXPECT_EQ(Cut(points, {2, 3, 1}), (std::vector<Triangle>{{1, 2, 3}}));
 }
 
-TEST(TriangulateTest, S16_ConcaveQuadIsCutInside) {
+TEST(TriangulateTest, ConcaveQuadIsCutInside) {
   // The corner 2 is pushed in: the diagonal 1-3 would run outside.
   const std::vector<Vec3> points = {{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}};
   EXPECT_EQ(Cut(points, {0, 1, 2, 3}), (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
