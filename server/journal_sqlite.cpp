@@ -30,7 +30,7 @@ constexpr const char* kSchema[] = {
     " cached INTEGER NOT NULL, error TEXT NOT NULL, PRIMARY KEY (job, number)) WITHOUT ROWID",
     "CREATE TABLE result (key TEXT NOT NULL, epoch INTEGER NOT NULL, sequence INTEGER NOT NULL,"
     " worker TEXT NOT NULL, pixel TEXT NOT NULL, blob TEXT NOT NULL, triangles INTEGER NOT NULL,"
-    " render_ms INTEGER NOT NULL, PRIMARY KEY (key, epoch, sequence)) WITHOUT ROWID",
+    " render_ms INTEGER NOT NULL, PRIMARY KEY (key, epoch, sequence, pixel)) WITHOUT ROWID",
     "CREATE TABLE key (key TEXT PRIMARY KEY, failures INTEGER NOT NULL, lost INTEGER NOT NULL,"
     " failed INTEGER NOT NULL, error TEXT NOT NULL) WITHOUT ROWID",
     "CREATE TABLE worker (id TEXT PRIMARY KEY, draining INTEGER NOT NULL,"
@@ -109,7 +109,7 @@ class SqliteJournal : public Journal {
   Statement put_result_{sql_,
                         "INSERT OR REPLACE INTO result VALUES (:a, :b, :c, :d, :e, :f, :g, :h)"};
   Statement drop_result_{sql_,
-                         "DELETE FROM result WHERE key = :a AND epoch = :b AND sequence = :c"};
+                         "DELETE FROM result WHERE key = :a AND epoch = :b AND sequence = :c AND pixel = :d"};
   Statement put_key_{sql_, "INSERT OR REPLACE INTO key VALUES (:a, :b, :c, :d, :e)"};
   Statement put_worker_{sql_, "INSERT OR REPLACE INTO worker VALUES (:a, :b, :c)"};
 };
@@ -135,7 +135,8 @@ void SqliteJournal::Write(const ResultRow& row) {
 }
 
 void SqliteJournal::Write(const DropResult& row) {
-  Run(drop_result_, row.key.Hex(), Number(row.attempt.epoch), Number(row.attempt.sequence));
+  Run(drop_result_, row.key.Hex(), Number(row.attempt.epoch), Number(row.attempt.sequence),
+      row.pixel.Hex());
 }
 
 void SqliteJournal::Write(const KeyRow& row) {
@@ -287,7 +288,7 @@ Result<Snapshot> SqliteJournal::Load() {
       snapshot.frames.push_back({static_cast<JobId>(row.Int(0)), static_cast<uint32_t>(row.Int(1)),
                                  key, row.Int(3) != 0, row.Text(4)});
     });
-    each("SELECT * FROM result ORDER BY key, epoch, sequence", [&](const Row& row) {
+    each("SELECT * FROM result ORDER BY key, epoch, sequence, pixel", [&](const Row& row) {
       snapshot.results.push_back(
           {row.Hash(0),
            {static_cast<uint64_t>(row.Int(1)), static_cast<uint64_t>(row.Int(2))},

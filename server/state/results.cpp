@@ -154,7 +154,7 @@ void Machine::Quarantine(Worker& worker, const std::string& why, Now now) {
     Key& key = keys_.at(digest);
     std::erase_if(key.evidence, [&](const ResultRow& result) {
       if (result.worker != worker.row.id) return false;
-      Write(DropResult{result.key, result.attempt});
+      Write(DropResult{result.key, result.attempt, result.pixel});
       return true;
     });
     Settle(key, now);

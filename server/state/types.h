@@ -70,7 +70,7 @@ struct FrameRow {
   std::string error;
 };
 
-// One picture that was delivered for a key: a piece of evidence.
+// One picture that was delivered for a key: a piece of evidence. Its identity is (key, attempt, pixel).
 struct ResultRow {
   Digest key;
   AttemptId attempt;
@@ -99,6 +99,7 @@ struct WorkerRow {
 struct DropResult {
   Digest key;
   AttemptId attempt;
+  Digest pixel;
 };
 
 using Record = std::variant<JobRow, FrameRow, ResultRow, DropResult, KeyRow, WorkerRow>;
