@@ -196,7 +196,10 @@ void FillPrimitive(v1::Primitive* primitive) {
 
 }  // namespace
 
-void FillNames(v1::Scene* scene, const std::string& file_name) {
+void FillSurroundings(v1::Scene* scene, const std::string& file_name) {
+  Fill(scene->mutable_background()->mutable_top(), .12, .28, .58);
+  Fill(scene->mutable_background()->mutable_bottom(), .62, .74, .86);
+  Fill(scene->mutable_ambient(), .22, .26, .33);
   if (scene->name().empty()) scene->set_name(StemOf(file_name));
   if (scene->lights_size() == 0) {
     v1::Light* sun = scene->add_lights();
@@ -225,9 +228,6 @@ void FillShapeNumbers(v1::Scene* scene) {
 
 void FillPlainDefaults(v1::Scene* scene, const SceneShapes& shapes) {
   FillOutput(scene);
-  Fill(scene->mutable_background()->mutable_top(), .12, .28, .58);
-  Fill(scene->mutable_background()->mutable_bottom(), .62, .74, .86);
-  Fill(scene->mutable_ambient(), .22, .26, .33);
   for (v1::Light& light : *scene->mutable_lights()) FillLight(&light);
   if (scene->has_sea()) {
     v1::Sea* sea = scene->mutable_sea();

@@ -9,9 +9,10 @@
 
 namespace fjord {
 
-// Before anything is read: the scene's name (from `file_name`), a sun where there are no lights,
-// and the numbers of primitives.
-void FillNames(v1::Scene* scene, const std::string& file_name);
+// Before settings and files: names (the scene's from `file_name`), the sky, a sun where there are
+// no lights; so --set can change single numbers of them.
+void FillSurroundings(v1::Scene* scene, const std::string& file_name);
+// Before shapes are made: the numbers of primitives.
 void FillShapeNumbers(v1::Scene* scene);
 
 // All that does not depend on where things are in the world.

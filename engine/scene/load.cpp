@@ -79,7 +79,7 @@ LoadResult Complete(v1::Scene scene, const AssetReader& assets, std::span<const 
     result.errors = errors.Take();
     return result;
   }
-  FillNames(&whole, source->name);
+  FillSurroundings(&whole, source->name);
   ApplySettings(&whole, settings, source, &errors);
   CheckValues(whole, &errors);
   if (!errors.empty()) {  // shapes are read from sound numbers only
