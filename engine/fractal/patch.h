@@ -125,8 +125,9 @@ struct Patch {
   void EndTriangles();
 };
 
-// Per-target kernels (patch_midpoints.cpp, patch_triangles.cpp); Patch::Step is their only caller
-// but for MeasureEdges, which sets sign and current2 of edges begin..end from their vertices.
+// Per-target kernels (patch_collect.cpp, patch_midpoints.cpp, patch_triangles.cpp); Patch::Step is
+// their only caller but for MeasureEdges, which sets sign and current2 of edges begin..end from
+// their vertices.
 void MeasureEdges(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end);
 void CollectLongEdges(Patch& patch, bool keep_numbers);
 void MeasureAmounts(const SurfaceRules& rules, Patch& patch);

@@ -6,8 +6,6 @@
 //   two     (m0 1 m1), and of the rest the diagonal from the midpoint of the longer edge; equal
 //           edges: from the one with the smaller sum of identities
 //   three   (0 m0 m2) (m0 1 m1) (m2 m1 2) (m0 m1 m2)
-#include <bit>
-
 #include "engine/fractal/patch.h"
 
 // The order matters.
@@ -18,6 +16,7 @@
 
 #include "hwy/highway.h"
 #include "engine/fractal/patch_lanes-inl.h"
+#include "engine/fractal/patch_sort-inl.h"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -25,77 +24,6 @@ namespace fjord {
 namespace HWY_NAMESPACE {
 
 constexpr size_t kLanes = hn::MaxLanes(DF());
-constexpr size_t kBlock = 256;  // triangles sorted at a time
-
-// Triangles of one case: corners, edges, slots of the long edges, site.
-struct CaseList {
-  HWY_ALIGN uint32_t corner[3][kBlock + 16];
-  HWY_ALIGN uint32_t edge[3][kBlock + 16];
-  HWY_ALIGN uint32_t slot[3][kBlock + 16];
-  HWY_ALIGN uint32_t site[kBlock + 16];
-  size_t count;
-};
-
-HWY_INLINE V32 Turned(V32 by0, V32 by1, V32 by2, M32 turn1, M32 turn2) {
-  return hn::IfThenElse(turn2, by2, hn::IfThenElse(turn1, by1, by0));
-}
-
-HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end,
-                          CaseList* lists) {
-  const D32 d;
-  constexpr size_t kLanes32 = hn::MaxLanes(D32());
-  const V32 index_bits = hn::Set(d, ~Patch::kFlip), short_slot = hn::Set(d, Patch::kShort);
-  for (int i = 0; i < 3; ++i) lists[i].count = 0;
-  const PatchTriangles& from = patch.triangles;
-  for (size_t t = begin; t < end; t += kLanes32) {
-    const M32 valid = hn::FirstN(d, end - t);
-    V32 v[3], e[3], s[3];
-    M32 split[3];
-    for (int k = 0; k < 3; ++k) {
-      v[k] = hn::LoadU(d, &from.corner[k][t]);
-      e[k] = hn::IfThenElseZero(valid, hn::LoadU(d, &from.edge[k][t]));
-      const V32 index = hn::And(e[k], index_bits);
-      s[k] = Gather(patch.edge_slot.data(), index);
-      split[k] = hn::And(valid, hn::Ne(s[k], short_slot));
-    }
-    const M32 any = hn::Or(split[0], hn::Or(split[1], split[2]));
-    const M32 leaf = hn::AndNot(any, valid);
-    const Compactor leaf_front(leaf);
-    for (int k = 0; k < 3; ++k) hn::StoreU(leaf_front(v[k]), d, &patch.leaf[k][patch.leaf_count]);
-    patch.leaf_count += hn::CountTrue(d, leaf);
-
-    const M32 three = hn::And(split[0], hn::And(split[1], split[2]));
-    const M32 both01 = hn::And(split[0], split[1]), both12 = hn::And(split[1], split[2]),
-              both20 = hn::And(split[2], split[0]);
-    const M32 two = hn::AndNot(three, hn::Or(both01, hn::Or(both12, both20)));
-    const M32 one = hn::AndNot(hn::Or(two, three), any);
-    // Turn by 1 brings edge 1 to the front, by 2 edge 2.
-    const M32 turn1 = hn::Or(hn::And(one, split[1]), hn::And(two, both12));
-    const M32 turn2 = hn::Or(hn::And(one, split[2]), hn::And(two, both20));
-    V32 tv[3], te[3], ts[3];
-    for (int k = 0; k < 3; ++k) {
-      const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-      tv[k] = Turned(v[k], v[k1], v[k2], turn1, turn2);
-      te[k] = Turned(e[k], e[k1], e[k2], turn1, turn2);
-      ts[k] = Turned(s[k], s[k1], s[k2], turn1, turn2);
-    }
-    const M32 masks[3] = {one, two, three};
-    for (int c = 0; c < 3; ++c) {
-      CaseList& list = lists[c];
-      const Compactor front(masks[c]);
-      for (int k = 0; k < 3; ++k) {
-        hn::StoreU(front(tv[k]), d, &list.corner[k][list.count]);
-        hn::StoreU(front(te[k]), d, &list.edge[k][list.count]);
-        if (k <= c) hn::StoreU(front(ts[k]), d, &list.slot[k][list.count]);
-      }
-      if (rules.sites) {
-        hn::StoreU(front(hn::LoadU(d, &from.site[t])), d, &list.site[list.count]);
-      }
-      list.count += hn::CountTrue(d, masks[c]);
-    }
-  }
-}
-
 // N triangles of one case on their way to children.
 class Expander {
  public:
@@ -283,7 +211,7 @@ class Expander {
 };
 
 void SplitTrianglesLanes(const SurfaceRules& rules, Patch& patch) {
-  CaseList lists[3];
+  CaseList lists[4];  // the last: leaves, where they are sorted one at a time
   Expander expander(rules, patch);
   for (size_t begin = 0; begin < patch.triangles.count; begin += kBlock) {
     const size_t left = patch.triangles.count - begin;
@@ -295,77 +223,6 @@ void SplitTrianglesLanes(const SurfaceRules& rules, Patch& patch) {
   expander.Finish();
 }
 
-// The lanes that are long of edges i..: the sign is in a double's upper word.
-HWY_INLINE M32 LongLanes(const double* length2) {
-  const D32 d;
-#if HWY_TARGET == HWY_SCALAR
-  return hn::Eq(hn::Set(d, PatchIsShort(*length2) ? 1 : 0), hn::Zero(d));
-#else
-  constexpr bool kLittle = std::endian::native == std::endian::little;
-  const V32 low = hn::BitCast(d, hn::LoadU(DF(), length2));
-  const V32 high = hn::BitCast(d, hn::LoadU(DF(), length2 + hn::MaxLanes(D32()) / 2));
-  const V32 word = kLittle ? hn::ConcatOdd(d, high, low) : hn::ConcatEven(d, high, low);
-  return hn::Lt(word, hn::Set(d, 0x80000000u));
-#endif
-}
-
-void CollectLongEdgesLanes(Patch& patch, bool keep_numbers) {
-  const D32 d;
-  constexpr size_t kLanes32 = hn::MaxLanes(D32());
-  const size_t begin = patch.run_begin, end = patch.edge_count;
-  double* length2 = patch.edge_length2.data();
-  const uint32_t* edge_a = patch.edge_a.data();
-  const uint32_t* edge_b = patch.edge_b.data();
-  uint32_t* slot = patch.edge_slot.data();
-  uint32_t* list = patch.long_edge.data();
-  uint32_t* list_a = patch.long_a.data();
-  uint32_t* list_b = patch.long_b.data();
-  double* list_length2 = patch.long_length2.data();
-  for (size_t i = 0; i < kLanes32; ++i) length2[end + i] = -1;
-  const V32 none = hn::Set(d, Patch::kShort);
-  size_t n = 0;
-  for (size_t i = begin; i < end; i += kLanes32) {
-    const M32 is_long = LongLanes(length2 + i);
-    const Compactor front(is_long);
-    const V32 places = front.Ranks() + hn::Set(d, static_cast<uint32_t>(n));
-    hn::StoreU(hn::IfThenElse(is_long, places, none), d, slot + i);
-    hn::StoreU(front(hn::LoadU(d, edge_a + i)), d, list_a + n);
-    hn::StoreU(front(hn::LoadU(d, edge_b + i)), d, list_b + n);
-    if (keep_numbers) {
-      hn::StoreU(front(hn::Iota(d, static_cast<uint32_t>(i))), d, list + n);
-    }
-#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-    const __mmask16 bits = is_long.raw;
-    const auto low = static_cast<__mmask8>(bits), high = static_cast<__mmask8>(bits >> 8);
-    const size_t low_count = static_cast<size_t>(__builtin_popcount(low));
-    _mm512_storeu_pd(list_length2 + n, _mm512_maskz_compress_pd(low, _mm512_loadu_pd(length2 + i)));
-    _mm512_storeu_pd(list_length2 + n + low_count,
-                     _mm512_maskz_compress_pd(high, _mm512_loadu_pd(length2 + i + 8)));
-    n += low_count + static_cast<size_t>(__builtin_popcount(high));
-#else
-    for (size_t k = 0, at = n; k < kLanes32; ++k) {
-      list_length2[at] = length2[i + k];
-      at += PatchIsShort(length2[i + k]) ? 0 : 1;
-    }
-    n += hn::CountTrue(d, is_long);
-#endif
-  }
-  // Whole vectors may be read.
-  hn::StoreU(hn::Zero(d), d, list_a + n);
-  hn::StoreU(hn::Zero(d), d, list_b + n);
-  hn::StoreU(hn::Set(DF(), 1.0), DF(), list_length2 + n);
-  patch.long_count = n;
-}
-
-void InterleaveLeavesLanes(Patch& patch) {
-  const D32 d;
-  constexpr size_t kLanes32 = hn::MaxLanes(D32());
-  for (size_t i = 0; i < patch.leaf_count; i += kLanes32) {
-    hn::StoreInterleaved3(hn::LoadU(d, &patch.leaf[0][i]), hn::LoadU(d, &patch.leaf[1][i]),
-                          hn::LoadU(d, &patch.leaf[2][i]), d, patch.leaf_triangles[i].data());
-  }
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace fjord
 HWY_AFTER_NAMESPACE();
@@ -374,18 +231,10 @@ HWY_AFTER_NAMESPACE();
 namespace fjord {
 
 HWY_EXPORT(SplitTrianglesLanes);
-HWY_EXPORT(CollectLongEdgesLanes);
-HWY_EXPORT(InterleaveLeavesLanes);
 
 void SplitTriangles(const SurfaceRules& rules, Patch& patch) {
   HWY_DYNAMIC_DISPATCH(SplitTrianglesLanes)(rules, patch);
 }
-
-void CollectLongEdges(Patch& patch, bool keep_numbers) {
-  HWY_DYNAMIC_DISPATCH(CollectLongEdgesLanes)(patch, keep_numbers);
-}
-
-void InterleaveLeaves(Patch& patch) { HWY_DYNAMIC_DISPATCH(InterleaveLeavesLanes)(patch); }
 
 }  // namespace fjord
 #endif

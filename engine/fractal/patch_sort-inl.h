@@ -1,0 +1,137 @@
+// Triangles sorted by how many long edges they have, turned so that the long ones come first; those
+// with none are leaves. Compiled once per SIMD target.
+
+#if defined(FJORD_ENGINE_FRACTAL_PATCH_SORT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FJORD_ENGINE_FRACTAL_PATCH_SORT_INL_H_
+#undef FJORD_ENGINE_FRACTAL_PATCH_SORT_INL_H_
+#else
+#define FJORD_ENGINE_FRACTAL_PATCH_SORT_INL_H_
+#endif
+
+#include <cstring>
+
+#include "engine/fractal/patch_lanes-inl.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fjord {
+namespace HWY_NAMESPACE {
+
+constexpr size_t kBlock = 256;  // triangles sorted at a time
+
+// Triangles of one case: corners, edges, slots of the long edges, site.
+struct CaseList {
+  HWY_ALIGN uint32_t corner[3][kBlock + 16];
+  HWY_ALIGN uint32_t edge[3][kBlock + 16];
+  HWY_ALIGN uint32_t slot[3][kBlock + 16];
+  HWY_ALIGN uint32_t site[kBlock + 16];
+  size_t count;
+};
+
+#if HWY_TARGET == HWY_SCALAR
+// One at a time: which case, and which edge comes first, looked up by the three flags.
+HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end,
+                          CaseList* lists) {
+  static constexpr uint8_t kCase[8] = {3, 0, 0, 1, 0, 1, 1, 2};  // 3: leaf
+  static constexpr uint8_t kTurn[8] = {0, 0, 1, 0, 2, 2, 1, 0};
+  const PatchTriangles& from = patch.triangles;
+  const uint32_t* slots = patch.edge_slot.data();
+  size_t count[4] = {};
+  for (size_t t = begin; t < end; ++t) {
+    uint32_t v[5], e[5], s[5];
+    uint32_t flags = 0;
+    for (uint32_t k = 0; k < 3; ++k) {
+      v[k] = from.corner[k][t];
+      e[k] = from.edge[k][t];
+      s[k] = slots[e[k] & ~Patch::kFlip];
+      flags |= (s[k] != Patch::kShort ? 1u : 0u) << k;
+    }
+    for (uint32_t k = 0; k < 2; ++k) {
+      v[3 + k] = v[k];
+      e[3 + k] = e[k];
+      s[3 + k] = s[k];
+    }
+    CaseList& list = lists[kCase[flags]];
+    const size_t at = count[kCase[flags]]++;
+    const uint32_t turn = kTurn[flags];
+    for (uint32_t k = 0; k < 3; ++k) {
+      list.corner[k][at] = v[k + turn];
+      list.edge[k][at] = e[k + turn];
+      list.slot[k][at] = s[k + turn];
+    }
+    if (rules.sites) list.site[at] = from.site[t];
+  }
+  for (int i = 0; i < 4; ++i) lists[i].count = count[i];
+  for (int k = 0; k < 3; ++k) {
+    std::memcpy(&patch.leaf[k][patch.leaf_count], lists[3].corner[k], count[3] * sizeof(uint32_t));
+  }
+  patch.leaf_count += count[3];
+}
+#else
+HWY_INLINE V32 Turned(V32 by0, V32 by1, V32 by2, M32 turn1, M32 turn2) {
+  return hn::IfThenElse(turn2, by2, hn::IfThenElse(turn1, by1, by0));
+}
+
+HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end,
+                          CaseList* lists) {
+  const D32 d;
+  constexpr size_t kLanes32 = hn::MaxLanes(D32());
+  const V32 index_bits = hn::Set(d, ~Patch::kFlip), short_slot = hn::Set(d, Patch::kShort);
+  for (int i = 0; i < 3; ++i) lists[i].count = 0;
+  const PatchTriangles& from = patch.triangles;
+  for (size_t t = begin; t < end; t += kLanes32) {
+    const M32 valid = hn::FirstN(d, end - t);
+    V32 v[3], e[3], s[3];
+    M32 split[3];
+    for (int k = 0; k < 3; ++k) {
+      v[k] = hn::LoadU(d, &from.corner[k][t]);
+      e[k] = hn::IfThenElseZero(valid, hn::LoadU(d, &from.edge[k][t]));
+      const V32 index = hn::And(e[k], index_bits);
+      s[k] = Gather(patch.edge_slot.data(), index);
+      split[k] = hn::And(valid, hn::Ne(s[k], short_slot));
+    }
+    const M32 any = hn::Or(split[0], hn::Or(split[1], split[2]));
+    const M32 leaf = hn::AndNot(any, valid);
+    const Compactor leaf_front(leaf);
+    for (int k = 0; k < 3; ++k) hn::StoreU(leaf_front(v[k]), d, &patch.leaf[k][patch.leaf_count]);
+    patch.leaf_count += hn::CountTrue(d, leaf);
+
+    const M32 three = hn::And(split[0], hn::And(split[1], split[2]));
+    const M32 both01 = hn::And(split[0], split[1]), both12 = hn::And(split[1], split[2]),
+              both20 = hn::And(split[2], split[0]);
+    const M32 two = hn::AndNot(three, hn::Or(both01, hn::Or(both12, both20)));
+    const M32 one = hn::AndNot(hn::Or(two, three), any);
+    // Turn by 1 brings edge 1 to the front, by 2 edge 2.
+    const M32 turn1 = hn::Or(hn::And(one, split[1]), hn::And(two, both12));
+    const M32 turn2 = hn::Or(hn::And(one, split[2]), hn::And(two, both20));
+    V32 tv[3], te[3], ts[3];
+    for (int k = 0; k < 3; ++k) {
+      const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+      tv[k] = Turned(v[k], v[k1], v[k2], turn1, turn2);
+      te[k] = Turned(e[k], e[k1], e[k2], turn1, turn2);
+      ts[k] = Turned(s[k], s[k1], s[k2], turn1, turn2);
+    }
+    const M32 masks[3] = {one, two, three};
+    for (int c = 0; c < 3; ++c) {
+      CaseList& list = lists[c];
+      const Compactor front(masks[c]);
+      for (int k = 0; k < 3; ++k) {
+        hn::StoreU(front(tv[k]), d, &list.corner[k][list.count]);
+        hn::StoreU(front(te[k]), d, &list.edge[k][list.count]);
+        if (k <= c) hn::StoreU(front(ts[k]), d, &list.slot[k][list.count]);
+      }
+      if (rules.sites) {
+        hn::StoreU(front(hn::LoadU(d, &from.site[t])), d, &list.site[list.count]);
+      }
+      list.count += hn::CountTrue(d, masks[c]);
+    }
+  }
+}
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace fjord
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target guard
