@@ -52,16 +52,8 @@ double Rounded(double value, double unit) {
 std::string ProtoString(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
-    const auto u = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += std::string("\\") + c;
-    } else if (u < ' ' || u == 0x7f) {
-      constexpr std::string_view kDigits = "01234567";
-      out += '\\';
-      for (const int shift : {6, 3, 0}) out += kDigits[(u >> shift) & 7];
-    } else {
-      out += c;
-    }
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
   }
   return out + '"';
 }
@@ -222,6 +214,12 @@ Result<std::string> SceneTextFromShape(const ShapeFile& shape, const std::string
                                        const ParFile* par, const std::string& par_path) {
   if (shape.mesh.face_size.empty() && shape.curves.empty()) {
     return Invalid("the shape has no faces and no curves", {shape_path, 0, 0});
+  }
+  for (const char c : shape_path) {
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) {
+      return Invalid("the path of the shape holds a control character; rename the file",
+                     {shape_path, 0, 0});
+    }
   }
   const Judged judged = Judge(shape);
   const Vec3 size = judged.box.high - judged.box.low;

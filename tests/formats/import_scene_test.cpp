@@ -63,7 +63,7 @@ TEST(ImportSceneTest, OtherFormatsAndFormsLoadToo) {
            Case{"tall.svg", "<svg><path d='M0 0L0 7'/></svg>"},
            Case{"small.obj", "v 0 0 0\nv 1e-9 0 0\nv 0 1e-9 0\nf 1 2 3\n"},
            Case{"far.obj", "v 1e9 1e9 0\nv 1000000001 1e9 0\nv 1e9 1000000001 5\nf 1 2 3\n"},
-           Case{"\"odd\\\n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+           Case{"\"odd\\ .obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
        }) {
     SCOPED_TRACE(c.path);
     EXPECT_EQ(Import(c.bytes, c.path, nullptr).objects_size(), 1);

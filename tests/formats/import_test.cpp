@@ -69,9 +69,10 @@ TEST(ImportTest, AShapeWithoutExtentIsRefused) {
 
 TEST(ImportTest, OddPathsAreQuoted) {
   const ShapeFile shape = ReadShape("v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n", "x").value();
-  const std::string scene = SceneTextFromShape(shape, "a b/\"q\"\n\\.obj", nullptr, "").value();
-  EXPECT_THAT(scene, HasSubstr("path: \"a b/\\\"q\\\"\\012\\\\.obj\""));
+  const std::string scene = SceneTextFromShape(shape, "a b/\"q\" \\.obj", nullptr, "").value();
+  EXPECT_THAT(scene, HasSubstr("path: \"a b/\\\"q\\\" \\\\.obj\""));
   EXPECT_THAT(scene, HasSubstr("name: \"_q___\""));
+  ExpectError(SceneTextFromShape(shape, "a\nb", nullptr, ""), "a\nb", "control character");
 }
 
 }  // namespace
