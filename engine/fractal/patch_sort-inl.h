@@ -113,6 +113,7 @@ HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin,
     }
     const M32 masks[3] = {one, two, three};
     for (int c = 0; c < 3; ++c) {
+      if (hn::AllFalse(d, masks[c])) continue;
       CaseList& list = lists[c];
       const Compactor front(masks[c]);
       for (int k = 0; k < 3; ++k) {
