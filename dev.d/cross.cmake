@@ -15,3 +15,5 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-Wl,-rpath-link,${FJORD_SYSROOT}/usr/lib/${FJORD_CROSS}")
+# Debian's libraries keep a few headers by processor.
+set(CMAKE_CXX_FLAGS_INIT "-isystem ${FJORD_SYSROOT}/usr/include/${FJORD_CROSS}")

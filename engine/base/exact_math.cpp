@@ -3,6 +3,7 @@
 #include "engine/base/exact_math-inl.h"
 
 // One lane of the target every build has: the arithmetic is written down once.
+HWY_BEFORE_NAMESPACE();
 namespace fjord::exact {
 namespace {
 
@@ -44,3 +45,4 @@ double Atan2(double y, double x) {
 }
 
 }  // namespace fjord::exact
+HWY_AFTER_NAMESPACE();
