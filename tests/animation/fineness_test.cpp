@@ -120,6 +120,28 @@ TEST(FinenessTest, ATurntableIsNotMadeInfinitelyFine) {
   EXPECT_GT(EpsilonAt(fineness, {0, 0, 0}), .7 * nearest);
 }
 
+TEST(EyeBoundTest, OneEyeStandsForAllUpToTheBoxesEdges) {
+  // eyes close to the box, where the bound changes fast within a cell
+  const std::vector<Vec3> eyes = {{1.3, 0, .2}, {0, 1.4, 0}, {-1.2, -1.3, .1}, {1.05, 1.05, 1.05}};
+  const Box box = UnitBox();
+  for (const EyeBound& bound : BoundEyes(eyes, box)) {
+    double closest = 1e300;
+    for (int i = 0; i <= 64; ++i) {
+      for (int j = 0; j <= 64; ++j) {
+        for (int k = 0; k <= 64; ++k) {
+          const Vec3 x = box.low + Vec3(i, j, k) / 64. * box.Size();
+          for (const Vec3& eye : eyes) {
+            const double spare = Length(x - eye) - (Length(x - bound.center) - bound.radius);
+            ASSERT_GE(spare, 0) << i << " " << j << " " << k;
+            closest = std::min(closest, spare);
+          }
+        }
+      }
+    }
+    EXPECT_LT(closest, .3) << "and not much more than that";
+  }
+}
+
 double Number(int low, int high) { return *rc::gen::inRange(low, high) * .1; }
 
 RC_GTEST_PROP(FinenessProperty, Z1_NoFrameIsCoarserThanItAsksForAlone, ()) {
