@@ -73,6 +73,16 @@ std::vector<Halving> Halvings(const WeldedShape& shape) {
   return all;
 }
 
+// Of the halved segment, on OutlineCurve at rest.
+double RestLength(const WeldedShape& shape, const Halving& h) {
+  const CoarseShape outline = OutlineCurve();
+  size_t edge = 0;
+  for (size_t i = 0; i < h.m; ++i) {
+    edge += shape.level[i + 1] == 0 ? 1 : 0;
+  }
+  return Length(outline.now[(edge + 1) % 12] - outline.now[edge]) * std::pow(.5, h.level);
+}
+
 Polyline AsLine(const WeldedShape& shape) { return {shape.mesh.points, shape.closed}; }
 
 std::vector<double> Heights(const WeldedShape& shape) {
@@ -275,7 +285,6 @@ TEST(CurveTest, S14_AllLawsEqualTheirFormula) {
     s.uniforms = 5;
     s.sigma = .5;
     const WeldedShape shape = Weld(*Prepare(OutlineCurve(), s));
-    const CoarseShape outline = OutlineCurve();
     for (const Halving& h : Halvings(shape)) {
       const Vec3& a = shape.mesh.points[h.a];
       const Vec3& b = shape.mesh.points[h.b];
@@ -283,12 +292,7 @@ TEST(CurveTest, S14_AllLawsEqualTheirFormula) {
       const Vec3 right = Vec3(b.y - a.y, a.x - b.x, 0) / length;
       const double offset = glm::dot(shape.mesh.points[h.m] - (a + b) * .5, right);
       const double g = Gaussian(shape.identity[h.m].lo, 5);
-      size_t edge = 0;  // the input edge it lies on
-      for (size_t i = 0; i < h.m; ++i) {
-        edge += shape.level[i + 1] == 0 ? 1 : 0;
-      }
-      const double rest =
-          Length(outline.now[(edge + 1) % 12] - outline.now[edge]) * std::pow(.5, h.level);
+      const double rest = RestLength(shape, h);
       const double expected =
           law == Law::kAffine
               ? .5 * .15 * std::pow(rest, .6) * AffineConstant(.6) * g
@@ -460,15 +464,64 @@ TEST(CurveTest, S21_AdaptiveDetailFadesIn) {
     ASSERT_NE(found, after.end());
     EXPECT_LT(Length(found->second.position - before.mesh.points[i]), 1e-4);
   }
-  // A new vertex starts in the middle of its segment.
-  const WeldedShape fresh = at(3);
-  for (const Halving& h : Halvings(fresh)) {
-    const std::vector<Vec3>& p = fresh.mesh.points;
-    const double ratio = Length(p[h.b] - p[h.a]) * 100 / 3 / 3;
-    if (ratio < 1.01) {
-      EXPECT_LT(Length(p[h.m] - (p[h.a] + p[h.b]) * .5), 1e-3);
+  // Offsets are those of the law, times w of the length in thresholds.
+  int faded = 0;
+  for (const Halving& h : Halvings(before)) {
+    const Vec3& a = before.mesh.points[h.a];
+    const Vec3& b = before.mesh.points[h.b];
+    const double t = std::min(1.0, Length(b - a) * 100 / 3 / 3 - 1);
+    const double w = t * t * (3 - 2 * t);
+    const double rest = RestLength(before, h);
+    const double full = .15 * std::pow(rest, .5) * AffineConstant(.5) *
+                        std::abs(Gaussian(before.identity[h.m].lo, 4));
+    EXPECT_NEAR(Length(before.mesh.points[h.m] - (a + b) * .5), full * w, 1e-12);
+    faded += w < .9 ? 1 : 0;
+  }
+  EXPECT_GT(faded, 10);
+}
+
+TEST(CurveTest, S4_InputEdgesMeetBitForBit) {
+  for (const Variant variant : {Variant::kFixed, Variant::kCurrent, Variant::kPerturbed}) {
+    const auto curve =
+        Prepare(OutlineCurve(), Curve(Law::kSimilar, Direction::kVertex, variant, .5, .02));
+    std::vector<test::CollectSink> sinks(curve->RootCount());
+    for (size_t root = 0; root < sinks.size(); ++root) {
+      curve->Stream(root, sinks[root], 100);
+      for (size_t i = 0; i + 1 < sinks[root].leaves.size(); ++i) {
+        ASSERT_EQ(sinks[root].leaves[i][1], sinks[root].leaves[i + 1][0]);
+      }
+    }
+    for (size_t root = 0; root < sinks.size(); ++root) {
+      EXPECT_EQ(sinks[root].leaves.back()[1], sinks[(root + 1) % 12].leaves.front()[0]);
     }
   }
+}
+
+// The bound is the finite sum over the levels that are left (curve_rules.cpp), neither more nor
+// less.
+TEST(CurveTest, S7_ReachIsTheSumOverItsLevels) {
+  constexpr double kLength = 2;
+  constexpr double kBound = 3.4641;  // sqrt(3 n)
+  const auto reach = [&](Law law, Variant variant) {
+    auto s = Curve(law, Direction::kEdge, variant, .6, 1.9 / 16);
+    return Prepare(StraightCurve(kLength), s)->Bound(0).radius - kLength / 2;
+  };
+  double affine = 0;
+  double shih = 0;
+  double length = kLength;
+  for (int k = 0; k < 5; ++k) {  // 2 > 1.9 / 16 five times halved
+    affine += .15 * std::pow(kLength / std::pow(2, k), .6) * AffineConstant(.6) * kBound;
+    const double c = ShihDeviation(1, .6, k) * .4 * kBound;
+    shih += c * length;
+    length *= .5 + c;
+  }
+  EXPECT_NEAR(reach(Law::kAffine, Variant::kCurrent) / affine, 1, 1e-4);
+  EXPECT_NEAR(reach(Law::kShih, Variant::kFixed) / shih, 1, 1e-4);
+  const double c = std::min(*SimilarFactor(.6, 4) * kBound, kSimilarClamp);
+  const double q = std::sqrt(.25 + c * c);
+  EXPECT_NEAR(
+      reach(Law::kSimilar, Variant::kCurrent) / (c * kLength * (1 - std::pow(q, 5)) / (1 - q)), 1,
+      2e-3);
 }
 
 }  // namespace

@@ -114,6 +114,13 @@ TEST(MeasureTest, S2_BrownianWalkHasHalf) {
   EXPECT_FALSE(HurstExponent(std::vector<double>(20, 1)).has_value());
 }
 
+TEST(MeasureTest, S2_AlignedIncrementsAreTheAlignedOnes) {
+  const std::vector<double> values = {0, 1, 0, 3, 0};
+  EXPECT_EQ(Variogram(values, 2, true), 0);
+  EXPECT_EQ(Variogram(values, 2, false), 4.0 / 3);
+  EXPECT_EQ(Variogram(values, 1, true), 5);
+}
+
 Mesh Box() {
   Mesh mesh;
   for (int i = 0; i < 8; ++i) {
