@@ -1,0 +1,156 @@
+// Bad input: one clear message that names place and remedy, the documented exit code.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/client/run_program.h"
+
+namespace fjord::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+
+class BadInputTest : public ::testing::Test {
+ protected:
+  // The scene must be refused by `check` and `render` alike, with exit code 1 and a message on
+  // `place`.
+  void ExpectRefused(const std::string& text, const std::string& place, const std::string& says) {
+    const std::string file = folder_.Write("bad.scene", text);
+    for (const ProgramRun& run :
+         {RunFjord({"check", file}), RunFjord({"render", file, "-o", folder_ / "out"})}) {
+      EXPECT_EQ(run.code, 1) << text;
+      EXPECT_THAT(run.err, HasSubstr("bad.scene" + place)) << text;
+      EXPECT_THAT(run.err, HasSubstr("error: ")) << text;
+      EXPECT_THAT(run.err, HasSubstr(says)) << text;
+      EXPECT_EQ(run.out, "");
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+  }
+
+  static std::string WithFractal(const std::string& knobs) {
+    return "name: \"x\"\nobjects {\n  name: \"a\"\n  shape { primitive { kind: SPHERE } }\n"
+           "  fractal { method: \"surface\" " +
+           knobs + " }\n}\n";
+  }
+  static std::string WithFace(const std::string& face) {
+    return "name: \"x\"\nobjects {\n  name: \"a\"\n  shape { mesh {\n"
+           "    point { x: 0 } point { x: 1 } point { y: 1 }\n    face { " +
+           face + " }\n  } }\n}\n";
+  }
+  static std::string WithKeys(const std::string& first, const std::string& second) {
+    const std::string shape = "shape { primitive { kind: SPHERE } }";
+    return "name: \"x\"\noutput { frames: 10 }\nobjects {\n  name: \"a\"\n  key { " + first + " " +
+           shape + " }\n  key { " + second + " " + shape + " }\n}\n";
+  }
+
+  const ScratchFolder folder_;
+};
+
+TEST_F(BadInputTest, FilesThatAreNone) {
+  const ProgramRun missing = RunFjord({"render", folder_ / "no.scene", "-o", folder_ / "out"});
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_THAT(missing.err, HasSubstr("no.scene"));
+  ExpectRefused("", "", "");
+  ExpectRefused("name: \"x\"\nobjects {\n  name: \"a\"\n", ":", "");
+  ExpectRefused(std::string("\x7f"
+                            "ELF\0\1\2\xff",
+                            8),
+                ":1", "");
+  EXPECT_EQ(RunFjord({"check", folder_.path()}).code, 1);
+}
+
+TEST_F(BadInputTest, FilesOfTwoGigabytes) {
+  for (const char* name : {"big.scene", "big.std", "big.obj", "big.ply", "big.png"}) {
+    const std::string file = folder_.Write(name, "");
+    std::filesystem::resize_file(file, uint64_t{2} << 30);  // sparse
+    const ProgramRun run = RunFjord({std::string(name) == "big.png" ? "digest" : "check", file});
+    EXPECT_EQ(run.code, 1) << name;
+    EXPECT_THAT(run.err, HasSubstr(name));
+    EXPECT_THAT(run.err, HasSubstr("MiB")) << run.err;
+  }
+}
+
+TEST_F(BadInputTest, NumbersThatAreNone) {
+  ExpectRefused(WithFractal("sigma: nan"), ":5:", "sigma");
+  ExpectRefused(WithFractal("amplitude: inf"), ":5:", "amplitude");
+  ExpectRefused(
+      "name: \"x\"\ncamera { eye { x: 1e308 } }\nobjects { name: \"a\" shape { primitive { kind: "
+      "SPHERE } } }\n",
+      ":2:", "");
+}
+
+TEST_F(BadInputTest, KnobsOutOfRange) {
+  ExpectRefused(WithFractal("H: 1.5"), ":5:", "H");
+  ExpectRefused(WithFractal("H: -0.1"), ":5:", "H");
+  ExpectRefused(WithFractal("epsilon: 0"), ":5:", "epsilon");
+  ExpectRefused(WithFractal("epsilon: -1"), ":5:", "epsilon");
+  ExpectRefused(WithFractal("max_level: 1000"), ":5:", "max_level");
+  ExpectRefused(WithFractal("method: \"surfaces\""), ":5:", "surfaces");
+}
+
+TEST_F(BadInputTest, IndicesThatLeadNowhere) {
+  ExpectRefused(WithFace("v: 0 v: 1 v: 2"), ":6:", "0");
+  ExpectRefused(WithFace("v: 1 v: 2 v: 4"), ":6:", "4");
+  ExpectRefused(WithFace("v: 1 v: 2 v: -3"), ":6:", "");
+}
+
+TEST_F(BadInputTest, KeysOutOfOrder) {
+  ExpectRefused(WithKeys("frame: 8", "frame: 3"), ":6:", "frame");
+  ExpectRefused(WithKeys("frame: 8", "frame: 8"), ":6:", "frame");
+}
+
+TEST_F(BadInputTest, CorrespondenceToMissingPoints) {
+  ExpectRefused(
+      "name: \"x\"\noutput { frames: 5 }\nobjects {\n  name: \"a\"\n  correspondence: BY_PAIRS\n"
+      "  key { frame: 1 shape { polyline { point { x: 0 } point { x: 1 } point { y: 1 } closed: "
+      "true } } }\n"
+      "  key { frame: 5 pair { from: 9 to: 1 }\n"
+      "    shape { polyline { point { x: 0 } point { x: 1 } point { y: 1 } closed: true } } }\n}\n",
+      ":7:", "9");
+}
+
+TEST_F(BadInputTest, SeveralDefectsAtOnce) {
+  const std::string file = folder_.Write("bad.scene", WithFractal("H: 7 epsilon: -1"));
+  const ProgramRun run = RunFjord({"check", file});
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
+}
+
+TEST_F(BadInputTest, FramesOutsideTheAnimation) {
+  const std::string file = folder_.Write("tiny.scene", TinyScene(5));
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {"render", file, "-o", folder_ / "out", "--frames", "4-6"},
+           {"submit", file, "--frames", "4-6", "--server", "127.0.0.1:1"},
+           {"preview", file, "--frame", "6", "-o", folder_ / "a.png"},
+           {"fractalize", file, "--frame", "6", "-o", folder_ / "a.obj"}}) {
+    const ProgramRun run = RunFjord(arguments);
+    EXPECT_EQ(run.code, 1) << arguments[0] << run.err;
+    EXPECT_THAT(run.err, HasSubstr("1-5")) << arguments[0];
+  }
+}
+
+TEST_F(BadInputTest, ShapesWithDefectsAreNamedByLine) {
+  const std::string file = folder_.Write(
+      "bad.std",
+      "a square, one face turned over\ndata 4 2\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 1 2 3\n3 1 4 3\n");
+  const ProgramRun run = RunFjord({"check", file});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.err, MatchesRegex("(.|\n)*bad.std:[78]:1: error: (.|\n)*"));
+  const std::string past = folder_.Write("past.std", "data 3 1\n0 0 0\n1 0 0\n0 1 0\n3 1 2 9\n");
+  EXPECT_THAT(RunFjord({"check", past}).err, HasSubstr("past.std:5:"));
+  const std::string par = folder_.Write("bad.par", "parameters\nH-Fdim 1.5\n");
+  EXPECT_EQ(RunFjord({"check", par}).code, 1);
+}
+
+TEST_F(BadInputTest, PicturesThatAreNone) {
+  const std::string file = folder_.Write("bad.png", "no picture");
+  const ProgramRun run = RunFjord({"digest", file});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.err, HasSubstr("bad.png"));
+  EXPECT_EQ(RunFjord({"digest", folder_ / "missing.png"}).code, 1);
+  EXPECT_EQ(RunFjord({"sheet", folder_.path(), "-o", folder_ / "s.png"}).code, 1);
+  EXPECT_EQ(RunFjord({"movie", folder_ / "none/such", "-o", folder_ / "m.mp4"}).code, 1);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "m.mp4"));
+}
+
+}  // namespace
+}  // namespace fjord::testing

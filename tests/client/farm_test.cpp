@@ -1,0 +1,116 @@
+// The whole way on real programs: farm, submit, watch, fetch, movie; the same pictures as `render`.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/client/run_program.h"
+
+namespace fjord::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class FarmTest : public ::testing::Test {
+ protected:
+  void StartFarm(int workers) {
+    farm_ = std::make_unique<RunningProgram>(std::vector<std::string>{
+        FJORD_PROGRAM, "farm", "--workers", std::to_string(workers), "--data", folder_ / "data",
+        "--listen", "127.0.0.1:0", "--with-parent"});
+    ASSERT_TRUE(WaitUntil([&] { return farm_->OutSoFar().find('\n') != std::string::npos; }));
+    const std::string out = farm_->OutSoFar();
+    ASSERT_EQ(out.rfind("listening on ", 0), 0u) << out;
+    options_.environment = {"FJORD_SERVER=" + out.substr(13, out.find('\n') - 13)};
+  }
+
+  ProgramRun Fjord(std::vector<std::string> arguments) {
+    return RunFjord(std::move(arguments), options_);
+  }
+
+  std::string Digests(const std::string& folder) { return RunFjord({"digest", "."}, {folder}).out; }
+
+  const ScratchFolder folder_;
+  const std::string scene_ = folder_.Write("tiny.scene", TinyScene(12));
+  ProgramOptions options_;
+  std::unique_ptr<RunningProgram> farm_;
+};
+
+TEST_F(FarmTest, TheFarmMakesThePicturesThatRenderMakes) {
+  ASSERT_NO_FATAL_FAILURE(StartFarm(2));
+  const ProgramRun submitted = Fjord({"submit", scene_, "--wait", "--json"});
+  ASSERT_EQ(submitted.code, 0) << submitted.err;
+  const auto json = nlohmann::json::parse(submitted.out);
+  const std::string job = json["id"];
+  EXPECT_EQ(json["job"]["frames"]["done"], 12);
+  EXPECT_EQ(json["job"]["state"], "done");
+
+  ASSERT_EQ(RunFjord({"render", scene_, "-o", folder_ / "here"}).code, 0);
+  const std::string out = folder_ / "fetched";
+  const ProgramRun fetched = Fjord({"fetch", job, "-o", out});
+  ASSERT_EQ(fetched.code, 0) << fetched.err;
+  EXPECT_EQ(Digests(out), Digests(folder_ / "here"));
+  fs::remove(out + "/tiny.0005.png");
+  fs::resize_file(out + "/tiny.0006.png", 50);
+  const ProgramRun again = Fjord({"fetch", job, "-o", out, "--json"});
+  EXPECT_EQ(nlohmann::json::parse(again.out)["fetched"], 2);
+  EXPECT_EQ(nlohmann::json::parse(again.out)["kept"], 10);
+  EXPECT_EQ(Digests(out), Digests(folder_ / "here"));
+  // `render` goes on in a folder that `fetch` began, and the other way round.
+  EXPECT_THAT(RunFjord({"render", scene_, "-o", out}).err, HasSubstr("12 were there already"));
+
+  EXPECT_EQ(Fjord({"movie", job, "-o", folder_ / "m.mp4"}).code, 0);
+  EXPECT_THAT(Fjord({"jobs"}).out, HasSubstr(job));
+  EXPECT_EQ(nlohmann::json::parse(Fjord({"workers", "--json"}).out).size(), 2u);
+  EXPECT_EQ(Fjord({"watch", job}).code, 0);
+
+  const auto second = nlohmann::json::parse(Fjord({"submit", scene_, "--wait", "--json"}).out);
+  EXPECT_EQ(second["job"]["frames"]["cached"], 12);
+  farm_->Signal(SIGTERM);
+  EXPECT_EQ(farm_->Wait().code, 0);
+}
+
+TEST_F(FarmTest, JobsCanBePausedResumedAndCancelled) {
+  ASSERT_NO_FATAL_FAILURE(StartFarm(1));
+  const std::string scene = folder_.Write("long.scene", TinyScene(3000));
+  std::string job = Fjord({"submit", scene, "--request-id", "one"}).out;
+  ASSERT_FALSE(job.empty());
+  job.pop_back();
+  EXPECT_EQ(Fjord({"submit", scene, "--request-id", "one"}).out, job + "\n");
+  EXPECT_EQ(Fjord({"submit", scene_, "--request-id", "one"}).code, 1);
+  const auto state = [&](const std::vector<std::string>& command) {
+    return nlohmann::json::parse(Fjord(command).out)["state"].get<std::string>();
+  };
+  EXPECT_EQ(state({"pause", job, "--json"}), "paused");
+  EXPECT_THAT(state({"resume", job, "--json"}), ::testing::AnyOf("running", "queued"));
+  EXPECT_EQ(nlohmann::json::parse(Fjord({"priority", job, "7", "--json"}).out)["priority"], 7);
+  EXPECT_EQ(state({"cancel", job, "--json"}), "cancelled");
+  EXPECT_EQ(Fjord({"watch", job}).code, 1);
+  EXPECT_EQ(Fjord({"fetch", job, "-o", folder_ / "part"}).code, 1);
+}
+
+TEST_F(FarmTest, TheFarmDiesWithItsParent) {
+  ASSERT_NO_FATAL_FAILURE(StartFarm(1));
+  const auto children = [&] {
+    return ReadAll("/proc/" + std::to_string(farm_->pid()) + "/task/" +
+                   std::to_string(farm_->pid()) + "/children");
+  };
+  std::istringstream list(children());
+  std::vector<std::string> pids{std::istream_iterator<std::string>(list), {}};
+  ASSERT_EQ(pids.size(), 2u);
+  farm_->Signal(SIGKILL);
+  farm_->Wait();
+  for (const std::string& pid : pids) {
+    EXPECT_TRUE(WaitUntil([&] {
+      const std::string status = ReadAll("/proc/" + pid + "/status");
+      return status.empty() || status.find("State:\tZ") != std::string::npos;
+    }));
+  }
+}
+
+}  // namespace
+}  // namespace fjord::testing
