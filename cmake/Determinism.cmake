@@ -9,3 +9,8 @@ add_compile_options(-ffp-contract=off -fno-math-errno -fno-fast-math)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i.86)$")
   add_compile_options(-msse2 -mfpmath=sse)
 endif()
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # Highway marks NEON code +crypto; g++ leaves the mark off constructors that it makes itself, and then
+  # cannot inline them. Marking everything brings the two together; no compiler makes AES by itself.
+  add_compile_options(-march=armv8-a+crypto)
+endif()
