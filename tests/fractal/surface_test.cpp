@@ -32,7 +32,7 @@ std::vector<Variety> Varieties() {
             settings.variant = variant;
             settings.split = split;
             settings.coast = coast;
-            settings.max_level = 4;
+            settings.max_level = 3;
             settings.uniforms = coast ? 7 : 4;
             all.push_back({std::string(LawName(law)) + ' ' + std::string(DirectionName(direction)) +
                                ' ' + std::string(VariantName(variant)) + ' ' +
