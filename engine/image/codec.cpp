@@ -68,6 +68,7 @@ Result<std::string> EncodePicture(const Picture& picture, const PictureInfo& inf
     spec.attribute("oiio:ColorSpace", "sRGB");
   } else {
     spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "");  // else the writer puts today's in
     spec.attribute("oiio:ColorSpace", "linear");
   }
   for (const auto& [key, value] : info) spec.attribute(std::string(kPrefix) + key, value);
@@ -88,11 +89,9 @@ Result<Picture> DecodePicture(std::string_view bytes, const std::string& name, P
   const std::string ending = FormatOf(bytes);
   if (ending.empty()) return Broken(name, "neither PNG nor OpenEXR");
   OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
-  std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::create("frame." + ending);
-  if (!in) {
-    return MakeError(ErrorCode::kInternal,
-                     "this OpenImageIO cannot read ." + ending + " (" + OIIO::geterror() + ")");
-  }
+  std::unique_ptr<OIIO::ImageInput> in =
+      OIIO::ImageInput::create("frame." + ending, false, nullptr, &reader);
+  if (!in) return Broken(name, OIIO::geterror());
   OIIO::ImageSpec config;
   OIIO::Filesystem::IOProxy* proxy = &reader;
   config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);

@@ -1,7 +1,6 @@
 #include "engine/render/film.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fjord {
 namespace {
@@ -11,70 +10,72 @@ constexpr uint32_t kBackground = 0xffffffff;
 constexpr uint32_t kSea = 0xfffffffe;
 constexpr uint32_t kDone = 0xfffffffd;
 
-// Light thrown back by still water at the cosine c of the angle of sight (Schlick).
-float Fresnel(float c) {
-  const float m = 1 - c;
-  const float m2 = m * m;
-  return .02f + .98f * (m2 * m2 * m);
-}
-
 }  // namespace
 
 Rgb Film::Background(int32_t y) const {
-  const double t = (y + .5) / setup_.frame.height;
-  const Rgb& top = setup_.frame.background_top;
-  return top + (setup_.frame.background_bottom - top) * static_cast<float>(t);
+  const double t = (y + .5) / setup_->frame.height;
+  const Rgb& top = setup_->frame.background_top;
+  return top + (setup_->frame.background_bottom - top) * static_cast<float>(t);
 }
 
-// The sea is compared here, per sample, with what was drawn.
-void Film::FindOwners(TileBuffer* tile, int32_t y) {
-  const TileRect& rect = tile->rect();
-  const size_t width = static_cast<size_t>(rect.width);
-  for (size_t s = 0; s < tile->places().size(); ++s) {
-    const size_t row = tile->Index(rect.x, y, static_cast<int32_t>(s));
-    const uint32_t* hit = tile->hit() + row;
-    double* depth = tile->depth() + row;
-    uint32_t* owner = owner_.data() + s * width;
-    for (size_t x = 0; x < width; ++x) {
-      owner[x] = hit[x] == kNoHit ? kBackground : tile->record(hit[x]).object;
-    }
-    if (!setup_.sea) continue;
-    const ViewPlane& sea = *setup_.sea;
-    const double sample_y = static_cast<double>(y * kFixedOne + tile->places()[s].y);
-    for (size_t x = 0; x < width; ++x) {
-      const int32_t pixel = rect.x + static_cast<int32_t>(x);
-      const double at =
-          sea.At(static_cast<double>(pixel * kFixedOne + tile->places()[s].x), sample_y);
-      if (!sea.Seen(at) || !(at - sea.rounding > depth[x])) continue;
-      owner[x] = kSea;
-      depth[x] = at;
-    }
+void Film::StartTile(const TileBuffer& tile) {
+  const size_t samples = tile.places().size();
+  const size_t count = static_cast<size_t>(tile.rect().width) * samples;
+  // SIMD lanes may read past the end
+  constexpr size_t kPadding = 64;
+  owner_.resize(count + kPadding);
+  sample_x_.resize(count + kPadding);
+  sample_y_.resize(count + kPadding);
+  for (auto& channel : row_) channel.resize(count + kPadding);
+  for (size_t at = 0; at < count; ++at) {
+    const int32_t pixel = tile.rect().x + static_cast<int32_t>(at / samples);
+    sample_x_[at] = static_cast<double>(pixel * kFixedOne + tile.places()[at % samples].x);
+    sample_y_[at] = static_cast<double>(tile.places()[at % samples].y);
   }
 }
 
-void Film::CollectHits(TileBuffer* tile, int32_t y, uint32_t owner) {
-  const TileRect& rect = tile->rect();
-  const size_t width = static_cast<size_t>(rect.width);
-  const size_t count = width * tile->places().size();
+// The sea is compared here, per sample, with what was drawn.
+Film::RowContent Film::FindOwners(TileBuffer* tile, int32_t y) {
+  const size_t row = tile->Index(tile->rect().x, y, 0);
+  const size_t count = static_cast<size_t>(tile->rect().width) * tile->places().size();
+  const uint32_t* hit = tile->hit() + row;
+  RowContent content;
+  size_t hits = 0;
+  for (size_t at = 0; at < count; ++at) {
+    const bool any = hit[at] != kNoHit;
+    owner_[at] = any ? tile->record(hit[at]).object : kBackground;
+    hits += any ? 1 : 0;
+  }
+  content.objects = hits > 0;
+  content.background = hits < count;
+  if (setup_->sea) {
+    const size_t wet = FindSea(*setup_->sea, sample_x_.data(), sample_y_.data(),
+                               static_cast<double>(y * kFixedOne), count, kSea, tile->depth() + row,
+                               owner_.data());
+    content.sea = wet > 0;
+    if (wet == count) content.objects = content.background = false;
+  }
+  return content;
+}
+
+// All samples of the row that have the owner of `first`; they are marked as done.
+void Film::CollectHits(TileBuffer* tile, int32_t y, size_t first) {
+  const size_t row = tile->Index(tile->rect().x, y, 0);
+  const size_t count = static_cast<size_t>(tile->rect().width) * tile->places().size();
+  const double top = static_cast<double>(y * kFixedOne);
+  const uint32_t owner = owner_[first];
   hits_.Resize(count);
   hit_of_.resize(count);
   size_t size = 0;
-  for (size_t s = 0; s < tile->places().size(); ++s) {
-    const size_t row = tile->Index(rect.x, y, static_cast<int32_t>(s));
-    const SamplePlace& place = tile->places()[s];
-    const double sample_y = static_cast<double>(y * kFixedOne + place.y);
-    for (size_t x = 0; x < width; ++x) {
-      const size_t at = s * width + x;
-      if (owner_[at] != owner) continue;
-      owner_[at] = kDone;
-      const int32_t pixel = rect.x + static_cast<int32_t>(x);
-      hits_.place[size] = static_cast<uint32_t>(at);
-      hits_.x[size] = static_cast<double>(pixel * kFixedOne + place.x);
-      hits_.y[size] = sample_y;
-      hits_.depth[size] = tile->depth()[row + x];
-      hit_of_[size] = tile->hit()[row + x];
-      ++size;
-    }
+  for (size_t at = first; at < count; ++at) {
+    if (owner_[at] != owner) continue;
+    owner_[at] = kDone;
+    hits_.place[size] = static_cast<uint32_t>(at);
+    hits_.x[size] = sample_x_[at];
+    hits_.y[size] = top + sample_y_[at];
+    hits_.depth[size] = tile->depth()[row + at];
+    hit_of_[size] = tile->hit()[row + at];
+    ++size;
   }
   hits_.Resize(size);
 }
@@ -106,7 +107,7 @@ void Film::InterpolateCorners(const TileBuffer& tile, size_t i, uint32_t hit,
 }
 
 void Film::ApplyTexture(uint32_t object) {
-  const BuiltObject& built = setup_.frame.objects[object];
+  const BuiltObject& built = setup_->frame.objects[object];
   if (!built.texture || built.texture->empty()) return;
   texture_.resize(hits_.size);
   for (size_t i = 0; i < hits_.size; ++i) {
@@ -128,8 +129,8 @@ void Film::ApplyTexture(uint32_t object) {
 }
 
 void Film::ShadeObject(const TileBuffer& tile, uint32_t object) {
-  const ObjectSetup& setup = setup_.objects[object];
-  const Material& material = setup_.frame.objects[object].material;
+  const ObjectSetup& setup = setup_->objects[object];
+  const Material& material = setup_->frame.objects[object].material;
   for (size_t i = 0; i < hits_.size; ++i) {
     const Rgb& normal = tile.record(hit_of_[i]).normal;
     for (int k = 0; k < 3; ++k) hits_.normal[k][i] = normal[k];
@@ -145,72 +146,85 @@ void Film::ShadeObject(const TileBuffer& tile, uint32_t object) {
     }
   }
   ApplyTexture(object);
-  Illuminate(setup.surface, setup_.lights, &hits_);
+  Illuminate(setup.surface, setup_->lights, &hits_);
 }
 
 // Lit like a surface; towards the horizon more and more of the sky is thrown back, until sea and
-// background meet without a line.
-void Film::ShadeSea(const Rgb& background) {
-  const Rgb& top = setup_.frame.background_top;
-  for (int k = 0; k < 3; ++k) {
-    std::fill_n(hits_.normal[k].begin(), hits_.size, k == 2 ? 1.f : 0.f);
-    std::fill_n(hits_.color[k].begin(), hits_.size, setup_.frame.sea->color[k]);
+// background meet without a line. The sea is smooth, so one light a pixel does for all its samples.
+void Film::ShadeSea(TileBuffer* tile, int32_t y, const Rgb& background) {
+  const size_t samples = tile->places().size();
+  const size_t width = static_cast<size_t>(tile->rect().width);
+  const double* depth = tile->depth() + tile->Index(tile->rect().x, y, 0);
+  sea_.Resize(width);
+  size_t size = 0;
+  for (size_t x = 0; x < width; ++x) {
+    size_t s = 0;
+    while (s < samples && owner_[x * samples + s] != kSea) ++s;
+    if (s == samples) continue;
+    const int32_t pixel = tile->rect().x + static_cast<int32_t>(x);
+    sea_.place[size] = static_cast<uint32_t>(x);
+    sea_.x[size] = static_cast<double>(pixel * kFixedOne + kFixedOne / 2);
+    sea_.y[size] = static_cast<double>(y * kFixedOne + kFixedOne / 2);
+    sea_.depth[size] = depth[x * samples + s];  // that of the middle may lie beyond the horizon
+    ++size;
   }
-  LocateHits(setup_.sea_geometry, &hits_);
-  Illuminate(setup_.sea_surface, setup_.lights, &hits_);
-  for (size_t i = 0; i < hits_.size; ++i) {
-    const float vx = hits_.to_eye[0][i], vy = hits_.to_eye[1][i], vz = hits_.to_eye[2][i];
-    const float length = std::sqrt(vx * vx + vy * vy + vz * vz);
-    const float c = (vz < 0 ? -vz : vz) / length;
-    const float thrown_back = Fresnel(c);
-    for (int k = 0; k < 3; ++k) {
-      const float sky = background[k] + (top[k] - background[k]) * c;
-      float& color = hits_.color[k][i];
-      color = color + (sky - color) * thrown_back;
+  sea_.Resize(size);
+  for (int k = 0; k < 3; ++k) {
+    std::fill_n(sea_.normal[k].begin(), size, k == 2 ? 1.f : 0.f);
+    std::fill_n(sea_.color[k].begin(), size, setup_->frame.sea->color[k]);
+  }
+  LocateHits(setup_->sea_geometry, &sea_);
+  Illuminate(setup_->sea_surface, setup_->lights, &sea_);
+  ReflectSky(background, setup_->frame.background_top, &sea_);
+  for (size_t i = 0; i < size; ++i) {
+    const size_t first = sea_.place[i] * samples;
+    for (size_t at = first; at < first + samples; ++at) {
+      if (owner_[at] != kSea) continue;
+      for (int k = 0; k < 3; ++k) row_[k][at] = sea_.color[k][i];
     }
   }
 }
 
-void Film::Develop(TileBuffer* tile, std::span<float> rgb) {
+void Film::Develop(const FrameSetup& setup, TileBuffer* tile, std::span<float> rgb) {
+  setup_ = &setup;
   const TileRect& rect = tile->rect();
   const size_t width = static_cast<size_t>(rect.width);
   const size_t samples = tile->places().size();
   const size_t count = width * samples;
-  owner_.resize(count);
-  row_.resize(3 * count);
+  StartTile(*tile);
   const float share = 1.f / static_cast<float>(samples);
   for (int32_t y = rect.y; y < rect.bottom(); ++y) {
     const Rgb background = Background(y);
-    FindOwners(tile, y);
-    for (size_t at = 0; at < count; ++at) {
+    const RowContent content = FindOwners(tile, y);
+    if (content.background) {
+      for (int k = 0; k < 3; ++k) std::fill_n(row_[k].begin(), count, background[k]);
+    }
+    if (content.sea) ShadeSea(tile, y, background);
+    for (size_t at = 0; content.objects && at < count; ++at) {
       const uint32_t owner = owner_[at];
-      if (owner == kDone) continue;
-      if (owner == kBackground) {
-        for (int k = 0; k < 3; ++k) row_[3 * at + k] = background[k];
-        continue;
-      }
-      CollectHits(tile, y, owner);
-      if (owner == kSea) {
-        ShadeSea(background);
-      } else {
-        ShadeObject(*tile, owner);
-      }
-      for (size_t i = 0; i < hits_.size; ++i) {
-        for (int k = 0; k < 3; ++k) row_[3 * hits_.place[i] + k] = hits_.color[k][i];
+      if (owner >= kDone) continue;
+      CollectHits(tile, y, at);
+      ShadeObject(*tile, owner);
+      for (int k = 0; k < 3; ++k) {
+        for (size_t i = 0; i < hits_.size; ++i) row_[k][hits_.place[i]] = hits_.color[k][i];
       }
     }
     float* out = rgb.data() + static_cast<size_t>(y - rect.y) * width * 3;
-    for (size_t i = 0; i < 3 * width; ++i) {
-      float sum = row_[i];
-      for (size_t s = 1; s < samples; ++s) sum += row_[3 * s * width + i];
-      out[i] = sum * share;
+    for (int k = 0; k < 3; ++k) {
+      const float* from = row_[k].data();
+      for (size_t x = 0; x < width; ++x) {
+        float sum = from[x * samples];
+        for (size_t s = 1; s < samples; ++s) sum += from[x * samples + s];
+        out[3 * x + k] = sum * share;
+      }
     }
   }
 }
 
 size_t Film::Bytes() const {
-  return owner_.capacity() * 4 + hit_of_.capacity() * 4 + row_.capacity() * 4 +
-         hits_.x.capacity() * (3 * 8 + 4 + 10 * 4 + 3 * 8) +
+  constexpr size_t kPerHit = 4 + 6 * 8 + 10 * 4;
+  return owner_.capacity() * (4 + 2 * 8 + 3 * 4) + hit_of_.capacity() * 4 +
+         (hits_.x.capacity() + sea_.x.capacity()) * kPerHit +
          texture_.capacity() * sizeof(SurfaceSample);
 }
 

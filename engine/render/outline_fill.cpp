@@ -53,7 +53,7 @@ void OutlineFill::Finish(const ViewPlane& plane, uint32_t object, TileBuffer* ti
       const SamplePlace& place = tile->places()[s];
       size_t index = tile->Index(rect.x, y, static_cast<int32_t>(s));
       int32_t sum = 0;
-      for (int32_t x = rect.x; x < rect.right(); ++x, ++index) {
+      for (int32_t x = rect.x; x < rect.right(); ++x, index += tile->places().size()) {
         sum += turns_[index];
         if (sum == 0) continue;
         const double depth = plane.At(static_cast<double>(x * kFixedOne + place.x),

@@ -7,6 +7,7 @@
 #include "engine/render/clip.h"
 #include "engine/render/integer.h"
 #include "engine/render/raster_source.h"
+#include "engine/render/resolve.h"
 #include "engine/render/triangle_setup.h"
 
 namespace fjord {
@@ -34,6 +35,35 @@ struct Edge {
     }
   }
 };
+
+// Pixels first..last.
+struct PixelRange {
+  int32_t first, last;
+};
+
+// Triangles of any size, row by row: where a row of samples enters and leaves is found by division.
+void FillSpans(const std::array<Edge, 3>& edges, const DepthPlane& plane, PixelRange columns,
+               PixelRange rows, HitSource* source, TileBuffer* tile) {
+  const std::span<const SamplePlace> places = tile->places();
+  for (int32_t y = rows.first; y <= rows.last; ++y) {
+    for (size_t s = 0; s < places.size(); ++s) {
+      const int32_t sample_y = y * kFixedOne + places[s].y;
+      int64_t first = columns.first, last = columns.last;
+      for (const Edge& edge : edges) edge.Narrow(places[s].x, sample_y, &first, &last);
+      if (first > last) continue;
+      size_t index = tile->Index(static_cast<int32_t>(first), y, static_cast<int32_t>(s));
+      for (int32_t x = static_cast<int32_t>(first); x <= last; ++x, index += places.size()) {
+        const double depth = plane.At(x * kFixedOne + places[s].x, sample_y);
+        double& there = tile->depth()[index];
+        if (!(depth >= there)) continue;
+        const HitRecord& record = source->record;
+        if (depth == there && !tile->WinsTie(index, record.object, record.tie)) continue;
+        there = depth;
+        tile->hit()[index] = source->Get(tile);
+      }
+    }
+  }
+}
 
 ClipCorner ToClipCorner(const Projection& to, const Corner& corner) {
   return {ToClip(to, corner.position), corner.position, corner.normal, corner.color};
@@ -181,45 +211,24 @@ void Raster::Fill(const Corner& a, const Corner& b, const Corner& c, const HitRe
   const int64_t area =
       (int64_t{q.x} - p.x) * (int64_t{r.y} - p.y) - (int64_t{r.x} - p.x) * (int64_t{q.y} - p.y);
   if (area == 0) return;
-  const bool turned = area < 0;
-  const Edge edges[3] = {
-      {p, turned ? r : q}, {turned ? r : q, turned ? q : r}, {turned ? q : r, p}};
-  const TileRect& rect = tile_->rect();
-  const auto low = [](int32_t u, int32_t v, int32_t w) { return std::min(std::min(u, v), w) >> 8; };
-  const auto high = [](int32_t u, int32_t v, int32_t w) {
-    return std::max(std::max(u, v), w) >> 8;
-  };
-  const int32_t top = std::max(low(p.y, q.y, r.y), rect.y);
-  const int32_t bottom = std::min(high(p.y, q.y, r.y), rect.bottom() - 1);
-  const int32_t left = std::max(low(p.x, q.x, r.x), rect.x);
-  const int32_t right = std::min(high(p.x, q.x, r.x), rect.right() - 1);
-  if (left > right || top > bottom) return;
-
   const DepthPlane plane(p, q, r);
   HitSource source{record};
   if (attributes_.any()) {
     source.has_corners = true;
     source.corners = MakeCornerValues(to_, a, b, c);
   }
-  const std::span<const SamplePlace> places = tile_->places();
-  double* depths = tile_->depth();
-  uint32_t* hits = tile_->hit();
-  for (int32_t y = top; y <= bottom; ++y) {
-    for (size_t s = 0; s < places.size(); ++s) {
-      const int32_t sample_y = y * kFixedOne + places[s].y;
-      int64_t first = left, last = right;
-      for (const Edge& edge : edges) edge.Narrow(places[s].x, sample_y, &first, &last);
-      if (first > last) continue;
-      size_t index = tile_->Index(static_cast<int32_t>(first), y, static_cast<int32_t>(s));
-      for (int32_t x = static_cast<int32_t>(first); x <= last; ++x, ++index) {
-        const double depth = plane.At(x * kFixedOne + places[s].x, sample_y);
-        if (!(depth >= depths[index])) continue;
-        if (depth == depths[index] && !tile_->WinsTie(index, record.object, record.tie)) continue;
-        depths[index] = depth;
-        hits[index] = source.Get(tile_);
-      }
-    }
+  const ScreenPoint &second = area < 0 ? r : q, &third = area < 0 ? q : r;
+  const auto [left, right] = std::minmax({p.x, q.x, r.x});
+  const auto [top, bottom] = std::minmax({p.y, q.y, r.y});
+  constexpr int32_t kMedium = kMediumPixels * kFixedOne;
+  if (right - left < kMedium && bottom - top < kMedium && tile_->places().size() >= 4) {
+    FillMedium(p, second, third, plane, &source, tile_);
+    return;
   }
+  const TileRect& rect = tile_->rect();
+  FillSpans({Edge(p, second), Edge(second, third), Edge(third, p)}, plane,
+            {std::max(left >> 8, rect.x), std::min(right >> 8, rect.right() - 1)},
+            {std::max(top >> 8, rect.y), std::min(bottom >> 8, rect.bottom() - 1)}, &source, tile_);
 }
 
 }  // namespace fjord

@@ -41,6 +41,12 @@ class Raster {
   // All triangles and segments of a batch.
   void Draw(const StreamBatch& batch);
 
+  // For the SIMD half: a record of the triangle a, b, c (a leads) ...
+  uint32_t AddHit(const StreamBatch& batch, uint32_t a, uint32_t b, uint32_t c) const;
+  // ... and which of the tied samples index + i (bit i) it wins.
+  uint32_t WonTies(const StreamBatch& batch, const Triangle& triangle, size_t index,
+                   uint32_t bits) const;
+
   const TileBuffer& tile() const { return *tile_; }
   const Projection& projection() const { return to_; }
   size_t Bytes() const;

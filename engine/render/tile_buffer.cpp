@@ -10,15 +10,19 @@ void TileBuffer::Reset(const TileRect& rect, uint32_t samples) {
   places_ = SamplePlaces(samples);
   const size_t count =
       static_cast<size_t>(rect.width) * static_cast<size_t>(rect.height) * places_.size();
-  depth_.assign(count, -std::numeric_limits<double>::infinity());
-  hit_.assign(count, kNoHit);
+  constexpr size_t kPadding = 8;  // SIMD lanes may read past the end
+  depth_.assign(count + kPadding, -std::numeric_limits<double>::infinity());
+  hit_.assign(count + kPadding, kNoHit);
   records_.clear();
   corners_.clear();
+  record_limit_ = std::max<size_t>(count + count / 2, 4096);
+  records_.reserve(record_limit_ + kLargestBatch);
 }
 
 void TileBuffer::CompactIfLarge() {
-  // At least as many records go as stay, so compaction costs a constant per record on average.
-  if (records_.size() > std::max<size_t>(2 * hit_.size(), 4096)) Compact();
+  // No more records can stay than there are samples, so at least a third of the limit goes each
+  // time: compaction costs a constant per record on average.
+  if (records_.size() > record_limit_) Compact();
 }
 
 void TileBuffer::Compact() {

@@ -1,7 +1,7 @@
 // The visibility buffer of one tile: per sample the nearest depth and which triangle it belongs to.
 //
-// Layout: rows of pixels, in each the samples of one place after another: [y][sample][x], so that
-// both rasterising and shading run along x.
+// Layout: rows of pixels, in each the samples of one pixel after those of the one before:
+// [y][x][sample], so that a micro-triangle touches few cache lines and four samples are one vector.
 //
 // Invariants
 // V1 What a sample keeps does not depend on the order of arrival: the larger depth wins, a tie goes
@@ -60,9 +60,10 @@ class TileBuffer {
 
   // Of the sample `s` of pixel (x, y), picture coordinates.
   size_t Index(int32_t x, int32_t y, int32_t s) const {
-    return (static_cast<size_t>(y - rect_.y) * places_.size() + static_cast<size_t>(s)) *
-               static_cast<size_t>(rect_.width) +
-           static_cast<size_t>(x - rect_.x);
+    return (static_cast<size_t>(y - rect_.y) * static_cast<size_t>(rect_.width) +
+            static_cast<size_t>(x - rect_.x)) *
+               places_.size() +
+           static_cast<size_t>(s);
   }
   double* depth() { return depth_.data(); }
   uint32_t* hit() { return hit_.data(); }
@@ -92,6 +93,9 @@ class TileBuffer {
   size_t Bytes() const;
 
  private:
+  // About the most records a batch adds; larger ones only cost a reallocation.
+  static constexpr size_t kLargestBatch = 16384;
+
   void Compact();
 
   TileRect rect_;
@@ -99,6 +103,7 @@ class TileBuffer {
   std::vector<double> depth_;
   std::vector<uint32_t> hit_;
   std::vector<HitRecord> records_;
+  size_t record_limit_ = 0;
   std::vector<CornerValues> corners_;
   std::vector<uint32_t> moved_;
 };

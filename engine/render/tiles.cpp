@@ -43,9 +43,9 @@ class TileSink final : public StreamSink {
   OutlineFill* fill_;
 };
 
-// The buffers one thread needs, kept from tile to tile.
+// The buffers one thread needs.
 struct Worker {
-  explicit Worker(const FrameSetup& setup) : raster(&buffer), film(setup) {}
+  Worker() : raster(&buffer) {}
 
   TileBuffer buffer;
   Raster raster;
@@ -57,6 +57,35 @@ struct Worker {
     return buffer.Bytes() + raster.Bytes() + fill.Bytes() + film.Bytes() +
            rgb.capacity() * sizeof(float);
   }
+};
+
+// Workers between tiles and between frames: touching fresh memory costs a tenth of a small frame.
+// Holds at most one a core; tiny ones are not worth keeping.
+class WorkerPool {
+ public:
+  static WorkerPool& Get() {
+    static WorkerPool pool;
+    return pool;
+  }
+
+  std::unique_ptr<Worker> Borrow() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (idle_.empty()) return std::make_unique<Worker>();
+    std::unique_ptr<Worker> worker = std::move(idle_.back());
+    idle_.pop_back();
+    return worker;
+  }
+
+  void Return(std::unique_ptr<Worker> worker) {
+    constexpr size_t kLargest = 64 << 20;
+    if (worker->Bytes() > kLargest) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (idle_.size() < static_cast<size_t>(HardwareThreads())) idle_.push_back(std::move(worker));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Worker>> idle_;
 };
 
 class RegionRenderer {
@@ -74,7 +103,9 @@ class RegionRenderer {
   Result<RenderedFrame> Run() {
     ParallelFor(lists_.tiles.size(), options_.threads, [this](size_t i) { RenderTile(i); });
     if (IsSet(options_.cancel)) return MakeError(ErrorCode::kCancelled, "cancelled");
-    for (const auto& worker : idle_) stats_.peak_bytes += worker->Bytes();
+    const size_t threads =
+        static_cast<size_t>(options_.threads > 0 ? options_.threads : HardwareThreads());
+    stats_.peak_bytes = most_bytes_ * std::min(threads, lists_.tiles.size());
     stats_.peak_bytes += picture_.bytes.size() + lists_.refs.capacity() * sizeof(RootRef);
     return RenderedFrame{std::move(picture_), stats_};
   }
@@ -82,11 +113,11 @@ class RegionRenderer {
  private:
   void RenderTile(size_t tile) {
     if (IsSet(options_.cancel)) return;
-    std::unique_ptr<Worker> worker = Borrow();
+    std::unique_ptr<Worker> worker = WorkerPool::Get().Borrow();
     const TileRect& rect = lists_.tiles[tile];
     const StreamStats made = Draw(tile, worker.get());
     worker->rgb.resize(static_cast<size_t>(rect.width) * static_cast<size_t>(rect.height) * 3);
-    worker->film.Develop(&worker->buffer, worker->rgb);
+    worker->film.Develop(setup_, &worker->buffer, worker->rgb);
     Store(rect, worker->rgb);
     Return(std::move(worker), made);
   }
@@ -134,19 +165,13 @@ class RegionRenderer {
     }
   }
 
-  std::unique_ptr<Worker> Borrow() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (idle_.empty()) return std::make_unique<Worker>(setup_);
-    std::unique_ptr<Worker> worker = std::move(idle_.back());
-    idle_.pop_back();
-    return worker;
-  }
-
   void Return(std::unique_ptr<Worker> worker, const StreamStats& made) {
     double share = 0;
+    const uint64_t bytes = worker->Bytes();
+    WorkerPool::Get().Return(std::move(worker));
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      idle_.push_back(std::move(worker));
+      most_bytes_ = std::max(most_bytes_, bytes);
       stats_.triangles += made.triangles;
       stats_.midpoints += made.midpoints;
       stats_.culled += made.culled;
@@ -164,7 +189,7 @@ class RegionRenderer {
   Picture picture_;  // tiles write their own rows
 
   std::mutex mutex_;
-  std::vector<std::unique_ptr<Worker>> idle_;
+  uint64_t most_bytes_ = 0;  // of a worker
   RenderStats stats_;
   size_t done_ = 0;
 };

@@ -54,7 +54,7 @@ TEST(CodecTest, EqualPicturesGiveEqualFilesWithoutDatesOrNames) {
     const Result<std::string> b = EncodePicture(picture, {{"frame_key", "k"}});
     ASSERT_TRUE(a.ok() && b.ok());
     EXPECT_EQ(*a, *b);
-    for (const char* word : {"OpenImageIO", "Software", "capDate", "DateTime", "tIME", "/"}) {
+    for (const char* word : {"OpenImageIO", "Software", "DateTime", "tIME", ":20"}) {
       EXPECT_EQ(a->find(word), std::string::npos) << word << " in " << FileEnding(format);
     }
   }

@@ -241,6 +241,7 @@ TEST(RasterTest, ClosedCurvesAreFilledByWinding) {
       const double px = x + .5 - 24, py = 16 - (y + .5);
       const double notch = -4 + 14. / 18 * (px < 0 ? -px : px);
       const bool inside = px > -18 && px < 18 && py > -10 && py < notch && py < 10;
+      if (py - notch < 1e-6 && notch - py < 1e-6) continue;  // on the border
       EXPECT_EQ(At(picture, x, y).r, inside ? 1 : 0) << x << ' ' << y;
     }
   }

@@ -101,6 +101,7 @@ TEST(ShadeTest, W42_LocalLightFallsOffWithRange) {
   v1::FrameScene scene = Plate({1, 1, 1}, 1);
   scene.mutable_output()->set_width(17);
   scene.mutable_output()->set_height(17);
+  scene.mutable_camera()->set_view_height(17);
   v1::FrameLight* light = scene.add_light();
   light->set_local(true);
   Put(light->mutable_place(), {0, 0, 20});
