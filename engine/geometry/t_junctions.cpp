@@ -101,7 +101,7 @@ std::vector<TJunction> FindTJunctions(std::span<const Vec3> points,
     if (found.size() > most) found.resize(most);
   };
   for (uint32_t e = 0; e < edges.size(); ++e) {
-    const auto [u, v] = edges[e];
+    const uint32_t u = edges[e][0], v = edges[e][1];
     const Vec3& a = points[u];
     const Vec3& b = points[v];
     tree.Near(a, b, tolerance, [&](uint32_t vertex) {
