@@ -216,7 +216,9 @@ class Plotter {
 std::string Hundredths(double v) {
   const int32_t whole = RoundToInt32(v * 100);
   const int32_t size = whole < 0 ? -whole : whole;
-  std::string text = (whole < 0 ? "-" : "") + std::to_string(size / 100);
+  std::string text;
+  if (whole < 0) text += '-';
+  text += std::to_string(size / 100);
   if (size % 100 != 0) {
     text += '.';
     text += static_cast<char>('0' + size % 100 / 10);
