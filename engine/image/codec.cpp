@@ -6,6 +6,8 @@
 #include <cstring>
 #include <memory>
 
+#include "engine/image/exr_header.h"
+
 namespace fjord {
 namespace {
 
@@ -88,6 +90,12 @@ Result<Picture> DecodePicture(std::string_view bytes, const std::string& name, P
   SetUpOnce();
   const std::string ending = FormatOf(bytes);
   if (ending.empty()) return Broken(name, "neither PNG nor OpenEXR");
+  if (ending == "exr") {
+    if (const Result<> ok = CheckExrHeader(bytes, kLargestSide); !ok.ok()) {
+      if (ok.error().code != ErrorCode::kLimit) return Broken(name, ok.error().message);
+      return MakeError(ErrorCode::kLimit, ok.error().message, Place{name});
+    }
+  }
   OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
   std::unique_ptr<OIIO::ImageInput> in =
       OIIO::ImageInput::create("frame." + ending, false, nullptr, &reader);

@@ -18,9 +18,6 @@ struct Target {
 
 std::span<const Target> Targets();
 
-// Null where there is none.
-const Target* FindTarget(std::string_view name);
-
 // Keeps libraries from writing a line for every broken message. Call once, first.
 void Prepare();
 

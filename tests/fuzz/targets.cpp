@@ -20,11 +20,4 @@ std::span<const Target> Targets() {
 
 void Prepare() { google::protobuf::SetLogHandler(nullptr); }
 
-const Target* FindTarget(std::string_view name) {
-  for (const Target& target : Targets()) {
-    if (name == target.name) return &target;
-  }
-  return nullptr;
-}
-
 }  // namespace fjord::fuzz
