@@ -39,6 +39,7 @@ std::vector<Vec3> Centred(std::vector<Vec3> points) {
 std::vector<Vec3> Sampled(std::span<const Vec3> points, std::span<const double> lengths,
                           double start) {
   std::vector<Vec3> samples;
+  samples.reserve(kStartSamples);
   for (int i = 0; i < kStartSamples; ++i) {
     samples.push_back(PointAtLength(points, lengths, start + lengths.back() * i / kStartSamples));
   }

@@ -55,7 +55,7 @@ BoxCells CutBox(const Box& box, int along) {
   return cells;
 }
 
-std::vector<EyeBound> BoundEyes(std::span<const Vec3> eyes, const Box& box) {
+std::vector<EyeBound> BoundEyes(std::span<const Vec3> eyes, const Box& box, int along) {
   Box around;
   Vec3 nearest = eyes[0];
   double least = DistanceTo(box, eyes[0]);
@@ -68,7 +68,7 @@ std::vector<EyeBound> BoundEyes(std::span<const Vec3> eyes, const Box& box) {
     }
   }
   if (around.low == around.high) return {{eyes[0], 0}};
-  const BoxCells cells = CutBox(box, eyes.size() <= 500 ? 8 : eyes.size() <= 8000 ? 4 : 2);
+  const BoxCells cells = CutBox(box, along);
   return {{nearest, RadiusOf(nearest, eyes, cells)},
           {around.Center(), RadiusOf(around.Center(), eyes, cells)}};
 }

@@ -24,7 +24,8 @@ struct BoxCells {
 BoxCells CutBox(const Box& box, int along);
 
 // Few candidates, each right; which is best depends on what is asked (fineness.cpp). One eye place
-// gives one bound of radius 0. `eyes` not empty.
-std::vector<EyeBound> BoundEyes(std::span<const Vec3> eyes, const Box& box);
+// gives one bound of radius 0. `eyes` not empty. `along`: cells along each side of the box; more
+// are tighter and take longer.
+std::vector<EyeBound> BoundEyes(std::span<const Vec3> eyes, const Box& box, int along);
 
 }  // namespace fjord

@@ -43,7 +43,7 @@ double EpsilonOf(const FinenessDemand& demand, const Box& rest, uint32_t height)
 // The demands by pixels with one eye for all, in its possible forms. None where a demand has no
 // such form.
 std::vector<v1::FrameFineness> ByPixels(std::span<const FinenessDemand> demands, const Box& rest,
-                                        uint32_t height) {
+                                        uint32_t height, int along) {
   std::vector<Vec3> eyes;
   double pixels = 0, focal = 0, near = 0;
   for (const FinenessDemand& demand : demands) {
@@ -57,7 +57,7 @@ std::vector<v1::FrameFineness> ByPixels(std::span<const FinenessDemand> demands,
     eyes.push_back(demand.transform.ToObject(demand.camera.eye));
   }
   std::vector<v1::FrameFineness> forms;
-  for (const EyeBound& bound : BoundEyes(eyes, rest)) {
+  for (const EyeBound& bound : BoundEyes(eyes, rest, along)) {
     v1::FrameFineness& form = forms.emplace_back();
     form.set_pixels(pixels);
     form.set_focal(focal);
@@ -108,7 +108,7 @@ std::string CameraState::Defect() const {
 }
 
 v1::FrameFineness WorkOutFineness(std::span<const FinenessDemand> demands, const Box& rest,
-                                  uint32_t picture_height) {
+                                  uint32_t picture_height, int cells_along) {
   std::vector<FinenessDemand> seen;
   for (const FinenessDemand& demand : demands) {
     if (demand.transform.largest_scale() > 0) seen.push_back(demand);
@@ -126,7 +126,7 @@ v1::FrameFineness WorkOutFineness(std::span<const FinenessDemand> demands, const
   fineness.set_epsilon(epsilon);
   // One eye lets far parts be coarse; where the camera goes round the object, one length may be
   // less.
-  const std::vector<v1::FrameFineness> forms = ByPixels(seen, rest, picture_height);
+  const std::vector<v1::FrameFineness> forms = ByPixels(seen, rest, picture_height, cells_along);
   if (forms.size() == 1) return forms[0];
   const BoxCells cells = CutBox(rest, 6);
   double least = CostOf(fineness, cells);

@@ -42,7 +42,8 @@ struct FinenessDemand {
 };
 
 // `rest`: the box of the rest pose. Frames in which the object has no size do not count.
+// `cells_along`: how closely a moving eye is bounded (eye_bound.h).
 v1::FrameFineness WorkOutFineness(std::span<const FinenessDemand> demands, const Box& rest,
-                                  uint32_t picture_height);
+                                  uint32_t picture_height, int cells_along = 8);
 
 }  // namespace fjord

@@ -37,13 +37,15 @@ class SceneAnimation final : public Animation {
 
   Result<> Prepare() {
     tracks_ = TrackSet(scene());
+    own_tracks_ = tracks_.OfObjects(scene().objects_size());
     template_ = scene();
     template_.clear_track();
     for (int i = 0; i < scene().objects_size(); ++i) {
       if (Result<> made = PrepareObject(i); !made) return made;
     }
     if (Result<> seen = PrepareCamera(); !seen) return seen;
-    for (int i = 0; i < scene().objects_size(); ++i) PrepareFineness(i);
+    v1::Scene scratch = template_;
+    for (int i = 0; i < scene().objects_size(); ++i) PrepareFineness(i, &scratch);
     return {};
   }
 
@@ -77,7 +79,8 @@ class SceneAnimation final : public Animation {
   Result<> PrepareObject(int index) {
     const v1::Object& object = scene().objects(index);
     const bool shape_tracked =
-        object.has_shape() && tracks_.Touches(Route().Then("objects", index).Then("shape"));
+        object.has_shape() && own_tracks_[static_cast<size_t>(index)].Touches(
+                                  Route().Then("objects", index).Then("shape"));
     std::vector<Geometry> keys;
     const auto read = [&](const v1::Shape& shape) -> Result<> {
       Result<Geometry> geometry = DecodeShape(shape, loaded_.assets);
@@ -143,15 +146,24 @@ class SceneAnimation final : public Animation {
     return box;
   }
 
-  void PrepareFineness(int index) {
+  // Cells for bounding the eye, so that many objects over many frames stay affordable. A choice by
+  // the scene alone: every machine makes the same.
+  int CellsAlong(size_t frames) const {
+    const uint64_t work = uint64_t{frames} * static_cast<uint64_t>(scene().objects_size());
+    return work <= 5'000 ? 8 : work <= 100'000 ? 4 : work <= 1'000'000 ? 2 : 1;
+  }
+
+  // `scratch`: a scene to apply tracks to; the object's own fields of it change.
+  void PrepareFineness(int index, v1::Scene* scratch) {
     const v1::Object& object = scene().objects(index);
     if (!object.has_fractal() || object.fractal().split() != v1::Fractal::SHOT) return;
     const Route route = Route().Then("objects", index);
     const Route fractal = route.Then("fractal");
-    const TrackSet own = tracks_.Inside({route.Then("transform"), fractal.Then("epsilon"),
-                                         fractal.Then("pixels"), fractal.Then("viewing")});
-    std::vector<uint32_t> frames = ChangingFrames(own, last_frame());
-    if (own.empty()) frames.clear();
+    const TrackSet own = own_tracks_[static_cast<size_t>(index)].Inside(
+        {route.Then("transform"), fractal.Then("epsilon"), fractal.Then("pixels"),
+         fractal.Then("viewing")});
+    std::vector<uint32_t> frames;
+    if (!own.empty()) frames = ChangingFrames(own, last_frame());
     if (own.empty() || camera_.size() > 1) {  // and wherever the camera moves
       for (size_t i = 0; i < camera_.size(); ++i) {
         frames.push_back(camera_from_ + static_cast<uint32_t>(i));
@@ -159,17 +171,13 @@ class SceneAnimation final : public Animation {
     }
     std::sort(frames.begin(), frames.end());
     frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
-    v1::Scene now;
-    for (int i = 0; i <= index; ++i) now.add_objects();
-    *now.mutable_objects(index)->mutable_transform() = object.transform();
-    *now.mutable_objects(index)->mutable_fractal() = object.fractal();
     std::vector<FinenessDemand> demands;
     for (const uint32_t frame : frames) {
-      own.Apply(frame, &now);
-      demands.push_back(DemandOf(now.objects(index), frame));
+      own.Apply(frame, scratch);
+      demands.push_back(DemandOf(scratch->objects(index), frame));
     }
-    plans_[static_cast<size_t>(index)].fineness =
-        WorkOutFineness(demands, RestBox(index), scene().output().height());
+    plans_[static_cast<size_t>(index)].fineness = WorkOutFineness(
+        demands, RestBox(index), scene().output().height(), CellsAlong(frames.size()));
   }
 
   Result<> AddObject(const v1::Scene& now, int index, uint32_t frame, v1::FrameScene* out) const {
@@ -210,8 +218,9 @@ class SceneAnimation final : public Animation {
 
   const LoadedScene loaded_;
   TrackSet tracks_;
-  v1::Scene template_;             // the scene without the shapes that tracks do not change
-  std::vector<ObjectPlan> plans_;  // one an object
+  std::vector<TrackSet> own_tracks_;  // those that lead into each object
+  v1::Scene template_;                // the scene without the shapes that tracks do not change
+  std::vector<ObjectPlan> plans_;     // one an object
   std::vector<CameraState> camera_;
   uint32_t camera_from_ = 1;  // the frame of camera_[0]
 };

@@ -181,6 +181,7 @@ Result<> AppendWalk(const Message& message, std::string& bytes) {
                    " has fields this version does not know; it was made by a newer Fjord");
   }
   std::vector<const FieldDescriptor*> fields;
+  fields.reserve(static_cast<size_t>(type.field_count()));
   for (int i = 0; i < type.field_count(); ++i) fields.push_back(type.field(i));
   std::sort(fields.begin(), fields.end(),
             [](const auto* a, const auto* b) { return a->number() < b->number(); });

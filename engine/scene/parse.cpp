@@ -15,7 +15,6 @@
 namespace fjord {
 namespace {
 
-using google::protobuf::Descriptor;
 using google::protobuf::FieldDescriptor;
 
 // The n-th text in quotes, from 0.

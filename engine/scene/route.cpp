@@ -27,6 +27,7 @@ std::string NameOf(const Message& message) {
 
 std::vector<std::string> FieldNames(const Descriptor& type) {
   std::vector<std::string> names;
+  names.reserve(static_cast<size_t>(type.field_count()));
   for (int i = 0; i < type.field_count(); ++i) names.push_back(type.field(i)->name());
   return names;
 }
@@ -119,7 +120,9 @@ Result<Route> FindRoute(const v1::Scene& scene, const FieldPath& path) {
       return Invalid(prefix + " is a plain value; it has no field \"" + piece.field + "\"");
     const FieldDescriptor* field = type->FindFieldByName(piece.field);
     if (field == nullptr) return NoField(*type, piece.field, prefix);
-    const std::string here = (prefix.empty() ? "" : prefix + ".") + piece.field;
+    std::string here = prefix;
+    if (!here.empty()) here += '.';
+    here += piece.field;
     RouteStep step{field, -1};
     if (!field->is_repeated()) {
       if (!piece.selector.empty())
@@ -141,7 +144,8 @@ Result<Route> FindRoute(const v1::Scene& scene, const FieldPath& path) {
       }
     }
     route.steps.push_back(step);
-    prefix = here + (step.index >= 0 ? "[" + piece.selector + "]" : "");
+    prefix = here;
+    if (step.index >= 0) prefix.append("[").append(piece.selector).append("]");
     type = field->message_type();
     message = message != nullptr && type != nullptr ? Child(*message, step) : nullptr;
   }

@@ -117,6 +117,7 @@ Result<> SetFromText(v1::Scene* scene, const Route& route, std::string_view valu
         return {};
       }
       std::vector<std::string> names;
+      names.reserve(static_cast<size_t>(type->value_count()));
       for (int i = 0; i < type->value_count(); ++i) names.push_back(type->value(i)->name());
       return Invalid("\"" + text + "\" is not a " + type->name() + SuggestNames(text, names));
     }

@@ -56,6 +56,16 @@ bool TrackSet::Touches(const Route& route) const {
   });
 }
 
+std::vector<TrackSet> TrackSet::OfObjects(int count) const {
+  std::vector<TrackSet> sets(static_cast<size_t>(count));
+  for (const Entry& entry : entries_) {
+    const RouteStep& first = entry.route.steps[0];
+    if (first.field->name() != "objects" || first.index >= count) continue;
+    sets[static_cast<size_t>(first.index)].entries_.push_back(entry);
+  }
+  return sets;
+}
+
 TrackSet TrackSet::Inside(const std::vector<Route>& routes) const {
   TrackSet set;
   for (const Entry& entry : entries_) {

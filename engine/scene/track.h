@@ -31,6 +31,8 @@ class TrackSet {
 
   // Does any track write inside `route`, or to something that holds it?
   bool Touches(const Route& route) const;
+  // The tracks that lead into each of `count` objects.
+  std::vector<TrackSet> OfObjects(int count) const;
   // The tracks that Touches(one of the routes).
   TrackSet Inside(const std::vector<Route>& routes) const;
 

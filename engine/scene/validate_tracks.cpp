@@ -168,9 +168,13 @@ class TrackChecker {
     auto& others = seen_[PrintRoute(*scene_, {{target.steps.begin(), target.steps.begin() + 1}})];
     for (const auto& [other, other_path] : others) {
       if (!other.Holds(target) && !target.Holds(other)) continue;
-      errors_->Add(here.Then("path"), path == other_path ? path + " has a track already"
-                                                         : path + " and " + other_path +
-                                                               " are tracks of the same number");
+      std::string message = path;
+      if (path == other_path) {
+        message += " has a track already";
+      } else {
+        message.append(" and ").append(other_path).append(" are tracks of the same number");
+      }
+      errors_->Add(here.Then("path"), message);
       return;
     }
     others.emplace_back(target, path);

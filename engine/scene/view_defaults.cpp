@@ -81,13 +81,15 @@ v1::Scene WithoutShapes(const v1::Scene& scene) {
 Box WorldBox(const v1::Scene& scene, const SceneShapes& shapes, const TrackSet& tracks) {
   Box world;
   v1::Scene now = WithoutShapes(scene);
+  const std::vector<TrackSet> own = tracks.OfObjects(scene.objects_size());
   for (int i = 0; i < scene.objects_size(); ++i) {
+    const TrackSet& of_object = own[static_cast<size_t>(i)];
     const Route route = Route().Then("objects", i);
     Box box = WithPaths(scene.objects(i), shapes.BoundsOf(static_cast<size_t>(i)));
-    const TrackSet shape_tracks = tracks.Inside({route.Then("shape")});
+    const TrackSet shape_tracks = of_object.Inside({route.Then("shape")});
     if (!shape_tracks.empty()) box = TrackedBox(scene, i, shape_tracks, box);
     if (box.empty) continue;
-    const TrackSet moves = tracks.Inside({route.Then("transform")});
+    const TrackSet moves = of_object.Inside({route.Then("transform")});
     for (const double frame : SampledFrames(moves, scene.output().frames())) {
       moves.Apply(frame, &now);
       const ObjectTransform transform(now.objects(i).transform());

@@ -124,7 +124,7 @@ TEST(EyeBoundTest, OneEyeStandsForAllUpToTheBoxesEdges) {
   // eyes close to the box, where the bound changes fast within a cell
   const std::vector<Vec3> eyes = {{1.3, 0, .2}, {0, 1.4, 0}, {-1.2, -1.3, .1}, {1.05, 1.05, 1.05}};
   const Box box = UnitBox();
-  for (const EyeBound& bound : BoundEyes(eyes, box)) {
+  for (const EyeBound& bound : BoundEyes(eyes, box, 8)) {
     double closest = 1e300;
     for (int i = 0; i <= 64; ++i) {
       for (int j = 0; j <= 64; ++j) {
