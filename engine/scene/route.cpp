@@ -19,10 +19,12 @@ bool IsMessage(const FieldDescriptor& field) {
 }
 
 // "" where the message has no name.
-std::string NameOf(const Message& message) {
+const std::string& NameOf(const Message& message) {
+  static const std::string kNone;
   const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName("name");
-  if (field == nullptr || field->cpp_type() != FieldDescriptor::CPPTYPE_STRING) return "";
-  return message.GetReflection()->GetString(message, field);
+  if (field == nullptr || field->cpp_type() != FieldDescriptor::CPPTYPE_STRING) return kNone;
+  std::string unused;  // generated messages hand out their own
+  return message.GetReflection()->GetStringReference(message, field, &unused);
 }
 
 std::vector<std::string> FieldNames(const Descriptor& type) {
@@ -37,11 +39,8 @@ Result<int> FindEntry(const Message* parent, const FieldDescriptor& field,
                       const std::string& selector, const std::string& list) {
   const Reflection* reflection = parent == nullptr ? nullptr : parent->GetReflection();
   const int size = parent == nullptr ? 0 : reflection->FieldSize(*parent, &field);
-  std::vector<std::string> names;
   for (int i = 0; i < size && IsMessage(field); ++i) {
-    const std::string name = NameOf(reflection->GetRepeatedMessage(*parent, &field, i));
-    if (name == selector) return i;
-    if (!name.empty()) names.push_back(name);
+    if (NameOf(reflection->GetRepeatedMessage(*parent, &field, i)) == selector) return i;
   }
   uint64_t number = 0;
   const char* end = selector.data() + selector.size();
@@ -50,6 +49,11 @@ Result<int> FindEntry(const Message* parent, const FieldDescriptor& field,
     if (number >= 1 && number <= static_cast<uint64_t>(size)) return static_cast<int>(number) - 1;
     return Invalid(list + " has " + std::to_string(size) + (size == 1 ? " entry" : " entries") +
                    ", counted from 1; there is no " + selector);
+  }
+  std::vector<std::string> names;
+  for (int i = 0; i < size && IsMessage(field); ++i) {
+    const std::string& name = NameOf(reflection->GetRepeatedMessage(*parent, &field, i));
+    if (!name.empty()) names.push_back(name);
   }
   return Invalid(list + " has no entry named \"" + selector + "\"" + SuggestNames(selector, names));
 }
@@ -102,7 +106,7 @@ std::string PrintRoute(const v1::Scene& scene, const Route& route) {
                                ? Child(*message, step)
                                : nullptr;
     if (step.index >= 0) {
-      const std::string name = child == nullptr ? "" : NameOf(*child);
+      const std::string name = child == nullptr ? std::string() : NameOf(*child);
       text += '[' + (IsSceneName(name) ? name : std::to_string(step.index + 1)) + ']';
     }
     message = child;
