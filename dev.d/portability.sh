@@ -104,6 +104,11 @@ sysroot() {
   for deb in "$apt"/debs/*.deb; do
     dpkg-deb -x "$deb" "$dir"
   done
+  # Some packages still unpack into /lib: one place for all.
+  if [[ -d $dir/lib ]]; then
+    cp -a "$dir/lib/." "$dir/usr/lib/"
+    rm -rf "$dir/lib"
+  fi
   rm -rf "$apt"
   touch "$dir/complete"
 }
