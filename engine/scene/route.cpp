@@ -18,12 +18,16 @@ bool IsMessage(const FieldDescriptor& field) {
   return field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
 }
 
-// "" where the message has no name.
-const std::string& NameOf(const Message& message) {
-  static const std::string kNone;
-  const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName("name");
-  if (field == nullptr || field->cpp_type() != FieldDescriptor::CPPTYPE_STRING) return kNone;
-  std::string unused;  // generated messages hand out their own
+// The name field of messages that have one, or null.
+const FieldDescriptor* NameField(const Descriptor* type) {
+  const FieldDescriptor* field = type == nullptr ? nullptr : type->FindFieldByName("name");
+  const bool is_text = field != nullptr && field->cpp_type() == FieldDescriptor::CPPTYPE_STRING;
+  return is_text ? field : nullptr;
+}
+
+// `field` of NameField.
+const std::string& NameOf(const Message& message, const FieldDescriptor* field) {
+  thread_local std::string unused;  // generated messages hand out their own
   return message.GetReflection()->GetStringReference(message, field, &unused);
 }
 
@@ -39,8 +43,12 @@ Result<int> FindEntry(const Message* parent, const FieldDescriptor& field,
                       const std::string& selector, const std::string& list) {
   const Reflection* reflection = parent == nullptr ? nullptr : parent->GetReflection();
   const int size = parent == nullptr ? 0 : reflection->FieldSize(*parent, &field);
-  for (int i = 0; i < size && IsMessage(field); ++i) {
-    if (NameOf(reflection->GetRepeatedMessage(*parent, &field, i)) == selector) return i;
+  const FieldDescriptor* name_field = NameField(field.message_type());
+  const auto name_of = [&](int i) -> const std::string& {
+    return NameOf(reflection->GetRepeatedMessage(*parent, &field, i), name_field);
+  };
+  for (int i = 0; i < size && name_field != nullptr; ++i) {
+    if (name_of(i) == selector) return i;
   }
   uint64_t number = 0;
   const char* end = selector.data() + selector.size();
@@ -51,9 +59,8 @@ Result<int> FindEntry(const Message* parent, const FieldDescriptor& field,
                    ", counted from 1; there is no " + selector);
   }
   std::vector<std::string> names;
-  for (int i = 0; i < size && IsMessage(field); ++i) {
-    const std::string& name = NameOf(reflection->GetRepeatedMessage(*parent, &field, i));
-    if (!name.empty()) names.push_back(name);
+  for (int i = 0; i < size && name_field != nullptr; ++i) {
+    if (!name_of(i).empty()) names.push_back(name_of(i));
   }
   return Invalid(list + " has no entry named \"" + selector + "\"" + SuggestNames(selector, names));
 }
@@ -72,6 +79,18 @@ Error NoField(const Descriptor& type, const std::string& name, const std::string
   const std::vector<std::string> names = FieldNames(type);
   return Invalid((prefix.empty() ? "a scene" : prefix) + " has no field \"" + name + "\"" +
                  SuggestNames(name, names, 32));
+}
+
+Error PlainValue(const std::string& prefix, const std::string& name) {
+  return Invalid(prefix + " is a plain value; it has no field \"" + name + "\"");
+}
+
+Error NotAList(const std::string& field, const std::string& selector) {
+  return Invalid(field + " is not a list; leave out [" + selector + "]");
+}
+
+Error WhichEntry(const std::string& list) {
+  return Invalid(list + " is a list; say which entry, by name or number from 1: " + list + "[1]");
 }
 
 }  // namespace
@@ -106,7 +125,8 @@ std::string PrintRoute(const v1::Scene& scene, const Route& route) {
                                ? Child(*message, step)
                                : nullptr;
     if (step.index >= 0) {
-      const std::string name = child == nullptr ? std::string() : NameOf(*child);
+      const FieldDescriptor* field = child == nullptr ? nullptr : NameField(child->GetDescriptor());
+      const std::string name = field == nullptr ? std::string() : NameOf(*child, field);
       text += '[' + (IsSceneName(name) ? name : std::to_string(step.index + 1)) + ']';
     }
     message = child;
@@ -120,8 +140,7 @@ Result<Route> FindRoute(const v1::Scene& scene, const FieldPath& path) {
   const Descriptor* type = v1::Scene::descriptor();
   std::string prefix;
   for (const PathPiece& piece : path.pieces) {
-    if (type == nullptr)
-      return Invalid(prefix + " is a plain value; it has no field \"" + piece.field + "\"");
+    if (type == nullptr) return PlainValue(prefix, piece.field);
     const FieldDescriptor* field = type->FindFieldByName(piece.field);
     if (field == nullptr) return NoField(*type, piece.field, prefix);
     std::string here = prefix;
@@ -129,11 +148,9 @@ Result<Route> FindRoute(const v1::Scene& scene, const FieldPath& path) {
     here += piece.field;
     RouteStep step{field, -1};
     if (!field->is_repeated()) {
-      if (!piece.selector.empty())
-        return Invalid(here + " is not a list; leave out [" + piece.selector + "]");
+      if (!piece.selector.empty()) return NotAList(here, piece.selector);
     } else if (piece.selector.empty()) {
-      return Invalid(here + " is a list; say which entry, by name or number from 1: " + here +
-                     "[1]");
+      return WhichEntry(here);
     } else {
       Result<int> entry = FindEntry(message, *field, piece.selector, here);
       if (!entry) return entry.error();
