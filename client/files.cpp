@@ -49,6 +49,16 @@ Result<std::string> ReadFile(const std::string& path, uint64_t limit) {
     return MakeError(ErrorCode::kNotFound, "there is no such file; check the name", place);
   if (fs::is_directory(status))
     return MakeError(ErrorCode::kInvalid, "this is a folder; name a file in it", place);
+  const auto too_large = [&](uint64_t bytes) {
+    return MakeError(ErrorCode::kLimit,
+                     "the file has " + std::to_string(bytes) + " bytes; at most " +
+                         std::to_string(limit) + " are read",
+                     place);
+  };
+  if (fs::is_regular_file(status)) {
+    const uint64_t size = fs::file_size(path, error);
+    if (!error && size > limit) return too_large(size);
+  }
   std::ifstream in(path, std::ios::binary);
   if (!in)
     return MakeError(ErrorCode::kIo, std::string("cannot be opened: ") + std::strerror(errno),
@@ -58,13 +68,7 @@ Result<std::string> ReadFile(const std::string& path, uint64_t limit) {
   while (in) {
     in.read(chunk, sizeof chunk);
     bytes.append(chunk, static_cast<size_t>(in.gcount()));
-    if (bytes.size() > limit) {
-      return MakeError(ErrorCode::kLimit,
-                       "the file is larger than " + std::to_string(limit >> 20) +
-                           " MiB, the most "
-                           "that is read",
-                       place);
-    }
+    if (bytes.size() > limit) return too_large(bytes.size());
   }
   if (in.bad()) return MakeError(ErrorCode::kIo, "reading failed", place);
   return bytes;

@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <atomic>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,6 +9,9 @@
 #include "client/console.h"
 #include "client/exit_code.h"
 #include "client/files.h"
+#include "client/interrupt.h"
+#include "client/progress.h"
+#include "engine/animation/check_animation.h"
 #include "engine/formats/par_file.h"
 #include "engine/formats/shape_file.h"
 #include "engine/geometry/check_mesh.h"
@@ -47,23 +50,65 @@ Errors CheckParameters(const std::string& path) {
   return parameters.ok() ? Errors{} : Errors{parameters.error()};
 }
 
-Errors CheckScene(const std::string& path, bool) {
-  OpenedScene scene;
-  return OpenScene(path, {}, &scene);
+using Json = nlohmann::ordered_json;
+
+Json ObjectJson(const ObjectCheck& object) {
+  return {{"object", object.object},
+          {"good", object.good},
+          {"vertices", object.vertices},
+          {"coarser", object.coarser},
+          {"identities_change", object.identities_change},
+          {"largest_step", object.largest_step},
+          {"coarse_step", object.coarse_step},
+          {"proportion", object.proportion},
+          {"worst_frame", object.worst_frame},
+          {"verdict", object.verdict}};
 }
 
-Errors CheckFile(const std::string& path, bool animation) {
+// Every frame's shapes, made and compared. What was found goes into `found`.
+Errors CheckMotion(const std::string& path, const Animation& animation, bool quiet, Json* found) {
+  FrameProgress progress(path, animation.last_frame() - animation.first_frame() + uint64_t{1},
+                         FrameProgress::Console());
+  AnimationCheckOptions options;
+  const std::atomic<bool>& interrupted = CatchInterrupts();
+  options.progress = [&](uint32_t) {
+    progress.FrameDone();
+    return !interrupted.load();
+  };
+  const Result<AnimationCheck> check = CheckAnimation(animation, options);
+  if (!check.ok()) return {check.error()};
+  Errors errors;
+  for (const ObjectCheck& object : check->objects) {
+    found->push_back(ObjectJson(object));
+    const std::string line = "object " + object.object + ": " + object.verdict;
+    if (!object.good)
+      errors.push_back(Invalid(line, {path, 0, 0}));
+    else if (!quiet)
+      console::Note(path + ": " + line);
+  }
+  return errors;
+}
+
+Errors CheckScene(const std::string& path, const Options& options, Json* motion) {
+  OpenedScene scene;
+  Errors errors = OpenScene(path, {}, &scene);
+  if (!errors.empty() || !options.animation) return errors;
+  return CheckMotion(path, *scene.animation, options.json, motion);
+}
+
+Errors CheckFile(const std::string& path, const Options& options, Json* motion) {
   if (path.ends_with(".par")) return CheckParameters(path);
   if (ShapeFormatOf(path).ok()) return CheckShape(path);
-  return CheckScene(path, animation);
+  return CheckScene(path, options, motion);
 }
 
 int RunCheck(const Options& options) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  Json list = Json::array();
   int code = kExitDone;
   for (const std::string& path : options.files) {
-    const Errors errors = CheckFile(path, options.animation);
-    nlohmann::ordered_json defects = nlohmann::ordered_json::array();
+    Json motion = Json::array();
+    const Errors errors = CheckFile(path, options, &motion);
+    Json defects = Json::array();
     for (const Error& error : errors) {
       code = kExitFailed;
       defects.push_back(
@@ -71,11 +116,12 @@ int RunCheck(const Options& options) {
       if (!options.json) console::Fail(error);
     }
     list.push_back({{"file", path}, {"good", errors.empty()}, {"defects", std::move(defects)}});
+    if (options.animation) list.back()["animation"] = std::move(motion);
     if (errors.empty() && !options.json) console::Note(path + ": good");
   }
   if (options.json) {
     const Result<> printed =
-        console::Print(list.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+        console::Print(list.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
     if (!printed.ok()) return console::Fail(printed.error());
   }
   return code;

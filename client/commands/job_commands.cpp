@@ -74,7 +74,7 @@ void AddJobCommands(CLI::App& app, Run* run) {
   AddOne(app, run, "retry", "Try the failed frames of a job again", v1::CommandRequest::RETRY,
          "  fjord retry JOB");
   AddOne(app, run, "priority", "Change the priority of a job", v1::CommandRequest::PRIORITY,
-         "  fjord priority JOB 10\n  fjord priority -- JOB -10");
+         "  fjord priority JOB 10\n  fjord priority JOB -10");
 }
 
 }  // namespace fjord
