@@ -52,7 +52,10 @@ TEST_F(BadInputTest, FilesThatAreNone) {
   EXPECT_THAT(missing.err, HasSubstr("no.scene"));
   ExpectRefused("", "", "");
   ExpectRefused("name: \"x\"\nobjects {\n  name: \"a\"\n", ":", "");
-  ExpectRefused(X, ":1", "");
+  ExpectRefused(std::string("\x7f"
+                            "ELF\0\1\2\xff",
+                            8),
+                ": ", "not a scene");
   EXPECT_EQ(RunFjord({"check", folder_.path()}).code, 1);
 }
 

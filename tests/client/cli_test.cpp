@@ -69,8 +69,8 @@ TEST(CliTest, WrongUsageIsCode2AndOneLine) {
   }
 }
 
-TEST(CliTest, VersionIsPrinted) {
-  const ProgramRun run = RunFjord({"--version"});
+TEST(CliTest, TheProgramItselfRuns) {
+  const ProgramRun run = RunProgram({FJORD_PROGRAM, "--version"});
   EXPECT_EQ(run.code, 0);
   EXPECT_THAT(run.out, StartsWith("fjord "));
 }

@@ -9,9 +9,12 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <thread>
+
+#include "client/cli.h"
 
 namespace fjord::testing {
 
@@ -41,6 +44,7 @@ RunningProgram::RunningProgram(const std::vector<std::string>& argv,
   arguments.push_back(nullptr);
   const std::string out = folder_ / "out";
   const std::string err = folder_ / "err";
+  std::fflush(nullptr);
   pid_ = fork();
   if (pid_ != 0) return;
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -54,6 +58,13 @@ RunningProgram::RunningProgram(const std::vector<std::string>& argv,
     signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{options.largest_file, options.largest_file};
     setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  if (argv[0].empty()) {
+    char name[] = "fjord";
+    arguments[0] = name;
+    const int code = RunCommandLine(static_cast<int>(argv.size()), arguments.data());
+    std::fflush(nullptr);
+    _exit(code);
   }
   execvp(arguments[0], arguments.data());
   _exit(127);
@@ -85,7 +96,8 @@ ProgramRun RunProgram(const std::vector<std::string>& argv, const ProgramOptions
 }
 
 ProgramRun RunFjord(std::vector<std::string> arguments, const ProgramOptions& options) {
-  arguments.insert(arguments.begin(), FJORD_PROGRAM);
+  const bool alone = ReadAll("/proc/self/status").find("\nThreads:\t1\n") != std::string::npos;
+  arguments.insert(arguments.begin(), alone ? "" : FJORD_PROGRAM);
   return RunProgram(arguments, options);
 }
 

@@ -40,6 +40,7 @@ class ScratchFolder {
 // A program that runs beside the test; killed at the end of its life.
 class RunningProgram {
  public:
+  // argv[0] empty: `fjord`, as a copy of this process.
   RunningProgram(const std::vector<std::string>& argv, const ProgramOptions& options = {});
   ~RunningProgram();
   pid_t pid() const { return pid_; }
@@ -56,7 +57,9 @@ class RunningProgram {
 
 ProgramRun RunProgram(const std::vector<std::string>& argv, const ProgramOptions& options = {});
 
-// fjord ARGS...
+// fjord ARGS... While this process has one thread, as a copy of it that runs the command line
+// (starting the program anew takes most of a second, for the picture libraries it is linked with);
+// else anew.
 ProgramRun RunFjord(std::vector<std::string> arguments, const ProgramOptions& options = {});
 
 // Waits until `done` says true, a minute at most; the answer is what it said last.
