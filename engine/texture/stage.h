@@ -1,7 +1,7 @@
-// What a texture stage is: one block of an object's ordered texture chain (W32, W33). Each stage is a
-// pure function of the surface sample, its own data and the time; it changes the normal (geometric
-// stages, before light) or the colour (colour stages), never anything else. Stages have no state, so
-// a sample may be shaded by any thread, tile or machine with the same bits.
+// What a texture stage is: one block of an object's ordered texture chain (W32, W33). Each stage is
+// a pure function of the surface sample, its own data and the time; it changes the normal
+// (geometric stages, before light) or the colour (colour stages), never anything else. Stages have
+// no state, so a sample may be shaded by any thread, tile or machine with the same bits.
 //
 // A stage is one file and one line in registry.cpp. The list is empty so far: an empty chain leaves
 // every sample as it came.
@@ -20,8 +20,8 @@ namespace fjord {
 // One sample of a surface, object space unless said. What a stage may read and what it may change.
 struct SurfaceSample {
   Vec3 position{0};
-  Vec3 normal{0};      // unit
-  Vec3 tangent{0};     // along u; 0 where the surface has no (u,v)
+  Vec3 normal{0};   // unit
+  Vec3 tangent{0};  // along u; 0 where the surface has no (u,v)
   double u = 0;
   double v = 0;
   Rgb color{1};
@@ -40,7 +40,7 @@ class TextureStage {
 
 struct StageInfo {
   std::string_view name;
-  uint32_t version;    // in the frame key of every frame that uses it
+  uint32_t version;  // in the frame key of every frame that uses it
   StageKind kind;
   std::string_view summary;
 };
@@ -48,7 +48,8 @@ struct StageInfo {
 std::span<const StageInfo> TextureStages();
 const StageInfo* FindTextureStage(std::string_view name);
 
-// Stages in order. Geometric ones run before light, colour ones with it; the order within each kind is kept.
+// Stages in order. Geometric ones run before light, colour ones with it; the order within each kind
+// is kept.
 class TextureChain {
  public:
   void Append(std::unique_ptr<TextureStage> stage);
