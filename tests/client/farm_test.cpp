@@ -74,6 +74,23 @@ TEST_F(FarmTest, TheFarmMakesThePicturesThatRenderMakes) {
   EXPECT_EQ(farm_->Wait().code, 0);
 }
 
+// Work is shared, and what each worker did is recorded, so that a speed-up can be read off.
+TEST_F(FarmTest, G56_WorkersShareTheFramesAndTheirTimesAreRecorded) {
+  ASSERT_NO_FATAL_FAILURE(StartFarm(2));
+  ASSERT_TRUE(WaitUntil([&] {
+    return nlohmann::json::parse(Fjord({"workers", "--json"}).out).size() == 2;
+  }));
+  const std::string scene = folder_.Write("shared.scene", TinyScene(60));
+  ASSERT_EQ(Fjord({"submit", scene, "--wait"}).code, 0);
+  uint64_t frames = 0;
+  for (const auto& worker : nlohmann::json::parse(Fjord({"workers", "--json"}).out)) {
+    EXPECT_GT(worker["frames_done"].get<uint64_t>(), 0u) << worker;
+    EXPECT_TRUE(worker.contains("render_ms")) << worker;
+    frames += worker["frames_done"].get<uint64_t>();
+  }
+  EXPECT_EQ(frames, 60u);
+}
+
 TEST_F(FarmTest, JobsCanBePausedResumedAndCancelled) {
   ASSERT_NO_FATAL_FAILURE(StartFarm(1));
   const std::string scene = folder_.Write("long.scene", TinyScene(3000));
