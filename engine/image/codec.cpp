@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "engine/image/exr_header.h"
+#include "engine/image/png_chunks.h"
 
 namespace fjord {
 namespace {
@@ -90,11 +91,11 @@ Result<Picture> DecodePicture(std::string_view bytes, const std::string& name, P
   SetUpOnce();
   const std::string ending = FormatOf(bytes);
   if (ending.empty()) return Broken(name, "neither PNG nor OpenEXR");
-  if (ending == "exr") {
-    if (const Result<> ok = CheckExrHeader(bytes, kLargestSide); !ok.ok()) {
-      if (ok.error().code != ErrorCode::kLimit) return Broken(name, ok.error().message);
-      return MakeError(ErrorCode::kLimit, ok.error().message, Place{name});
-    }
+  const Result<> sound =
+      ending == "exr" ? CheckExrHeader(bytes, kLargestSide) : CheckPngChunks(bytes, kLargestSide);
+  if (!sound.ok()) {
+    if (sound.error().code != ErrorCode::kLimit) return Broken(name, sound.error().message);
+    return MakeError(ErrorCode::kLimit, sound.error().message, Place{name});
   }
   OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
   std::unique_ptr<OIIO::ImageInput> in =
