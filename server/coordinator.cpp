@@ -9,6 +9,7 @@ namespace {
 
 constexpr size_t kMaxTasks = 10'000;
 constexpr size_t kMaxUncommitted = 200'000;  // records and answers that wait for the disk
+constexpr size_t kMaxWatchers = 10'000;
 constexpr int64_t kLongestSleepMs = 1'000;
 
 const Refusal kStopping{Code::kUnavailable, "the coordinator is stopping"};
@@ -114,12 +115,17 @@ void Coordinator::Abandon(const std::string& session, const void* caller) {
       {session, waiting.request, {}, false, Refusal{Code::kAborted, "the caller is gone"}});
 }
 
-void Coordinator::Watch(JobId job, Watcher* watcher) { watchers_[job].insert(watcher); }
+bool Coordinator::Watch(JobId job, Watcher* watcher) {
+  if (watching_ >= kMaxWatchers) return false;
+  ++watching_;
+  watchers_[job].insert(watcher);
+  return true;
+}
 
 void Coordinator::Unwatch(JobId job, Watcher* watcher) {
   const auto place = watchers_.find(job);
   if (place == watchers_.end()) return;
-  place->second.erase(watcher);
+  watching_ -= place->second.erase(watcher);
   if (place->second.empty()) watchers_.erase(place);
 }
 

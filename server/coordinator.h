@@ -60,7 +60,8 @@ class Coordinator {
   void Park(const std::string& session, uint64_t request, const void* caller, AcquireReply reply);
   // The caller is gone. Nothing happens where another waits by now.
   void Abandon(const std::string& session, const void* caller);
-  void Watch(JobId job, Watcher* watcher);
+  // False: too many watch already.
+  [[nodiscard]] bool Watch(JobId job, Watcher* watcher);
   void Unwatch(JobId job, Watcher* watcher);
 
  private:
@@ -88,6 +89,7 @@ class Coordinator {
   };
   std::map<std::string, Waiting> parked_;
   std::map<JobId, std::set<Watcher*>> watchers_;
+  size_t watching_ = 0;
 
   std::thread thread_;
 };

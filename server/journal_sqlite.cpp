@@ -16,25 +16,27 @@
 namespace fjord::server {
 namespace {
 
+// BIGINT and not INTEGER: SOCI reads columns declared INTEGER as 32 bits.
 constexpr const char* kSchema[] = {
     "CREATE TABLE meta (name TEXT PRIMARY KEY, value TEXT NOT NULL)",
-    "CREATE TABLE coordinator (id INTEGER PRIMARY KEY CHECK (id = 1), epoch INTEGER NOT NULL,"
+    "CREATE TABLE coordinator (id BIGINT PRIMARY KEY CHECK (id = 1), epoch BIGINT NOT NULL,"
     " holder TEXT NOT NULL)",
-    "CREATE TABLE job (id INTEGER PRIMARY KEY, request_id TEXT NOT NULL UNIQUE, content TEXT NOT "
+    "CREATE TABLE job (id BIGINT PRIMARY KEY, request_id TEXT NOT NULL UNIQUE, content TEXT NOT "
     "NULL,"
-    " name TEXT NOT NULL, project TEXT NOT NULL, scene TEXT NOT NULL, first INTEGER NOT NULL,"
-    " last INTEGER NOT NULL, priority INTEGER NOT NULL, verify_share REAL NOT NULL,"
-    " after_job INTEGER NOT NULL, paused INTEGER NOT NULL, cancelled INTEGER NOT NULL,"
-    " submitted_unix_ms INTEGER NOT NULL, ended_unix_ms INTEGER NOT NULL, error TEXT NOT NULL)",
-    "CREATE TABLE frame (job INTEGER NOT NULL, number INTEGER NOT NULL, key TEXT NOT NULL,"
-    " cached INTEGER NOT NULL, error TEXT NOT NULL, PRIMARY KEY (job, number)) WITHOUT ROWID",
-    "CREATE TABLE result (key TEXT NOT NULL, epoch INTEGER NOT NULL, sequence INTEGER NOT NULL,"
-    " worker TEXT NOT NULL, pixel TEXT NOT NULL, blob TEXT NOT NULL, triangles INTEGER NOT NULL,"
-    " render_ms INTEGER NOT NULL, PRIMARY KEY (key, epoch, sequence, pixel)) WITHOUT ROWID",
-    "CREATE TABLE key (key TEXT PRIMARY KEY, failures INTEGER NOT NULL, lost INTEGER NOT NULL,"
-    " failed INTEGER NOT NULL, error TEXT NOT NULL) WITHOUT ROWID",
-    "CREATE TABLE worker (id TEXT PRIMARY KEY, draining INTEGER NOT NULL,"
-    " quarantined INTEGER NOT NULL) WITHOUT ROWID",
+    " name TEXT NOT NULL, project TEXT NOT NULL, scene TEXT NOT NULL, first BIGINT NOT NULL,"
+    " last BIGINT NOT NULL, priority BIGINT NOT NULL, verify_share REAL NOT NULL,"
+    " after_job BIGINT NOT NULL, paused BIGINT NOT NULL, cancelled BIGINT NOT NULL,"
+    " submitted_unix_ms BIGINT NOT NULL, ended_unix_ms BIGINT NOT NULL, error TEXT NOT NULL)",
+    "CREATE TABLE frame (job BIGINT NOT NULL, number BIGINT NOT NULL, key TEXT NOT NULL,"
+    " cached BIGINT NOT NULL, error TEXT NOT NULL, PRIMARY KEY (job, number)) WITHOUT ROWID",
+    "CREATE TABLE result (key TEXT NOT NULL, epoch BIGINT NOT NULL, sequence BIGINT NOT NULL,"
+    " worker TEXT NOT NULL, pixel TEXT NOT NULL, blob TEXT NOT NULL, triangles BIGINT NOT NULL,"
+    " render_ms BIGINT NOT NULL, PRIMARY KEY (key, epoch, sequence, worker, pixel))"
+    " WITHOUT ROWID",
+    "CREATE TABLE key (key TEXT PRIMARY KEY, failures BIGINT NOT NULL, lost BIGINT NOT NULL,"
+    " failed BIGINT NOT NULL, error TEXT NOT NULL) WITHOUT ROWID",
+    "CREATE TABLE worker (id TEXT PRIMARY KEY, draining BIGINT NOT NULL,"
+    " quarantined BIGINT NOT NULL) WITHOUT ROWID",
 };
 
 int64_t MicrosNow() {
@@ -109,7 +111,8 @@ class SqliteJournal : public Journal {
   Statement put_result_{sql_,
                         "INSERT OR REPLACE INTO result VALUES (:a, :b, :c, :d, :e, :f, :g, :h)"};
   Statement drop_result_{sql_,
-                         "DELETE FROM result WHERE key = :a AND epoch = :b AND sequence = :c AND pixel = :d"};
+                         "DELETE FROM result WHERE key = :a AND epoch = :b AND sequence = :c AND "
+                         "worker = :d AND pixel = :e"};
   Statement put_key_{sql_, "INSERT OR REPLACE INTO key VALUES (:a, :b, :c, :d, :e)"};
   Statement put_worker_{sql_, "INSERT OR REPLACE INTO worker VALUES (:a, :b, :c)"};
 };
@@ -136,7 +139,7 @@ void SqliteJournal::Write(const ResultRow& row) {
 
 void SqliteJournal::Write(const DropResult& row) {
   Run(drop_result_, row.key.Hex(), Number(row.attempt.epoch), Number(row.attempt.sequence),
-      row.pixel.Hex());
+      row.worker, row.pixel.Hex());
 }
 
 void SqliteJournal::Write(const KeyRow& row) {
@@ -288,7 +291,7 @@ Result<Snapshot> SqliteJournal::Load() {
       snapshot.frames.push_back({static_cast<JobId>(row.Int(0)), static_cast<uint32_t>(row.Int(1)),
                                  key, row.Int(3) != 0, row.Text(4)});
     });
-    each("SELECT * FROM result ORDER BY key, epoch, sequence, pixel", [&](const Row& row) {
+    each("SELECT * FROM result ORDER BY key, epoch, sequence, worker, pixel", [&](const Row& row) {
       snapshot.results.push_back(
           {row.Hash(0),
            {static_cast<uint64_t>(row.Int(1)), static_cast<uint64_t>(row.Int(2))},

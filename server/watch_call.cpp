@@ -27,7 +27,7 @@ void WatchCall::Begin(const Machine& machine) {
   if (job == nullptr) {
     return End({grpc::StatusCode::NOT_FOUND, "job_id: there is no job " + std::to_string(job_)});
   }
-  coordinator_.Watch(job_, this);
+  if (!coordinator_.Watch(job_, this)) return End(BusyStatus());
   for (uint32_t index = 0; index < job->frames.size(); ++index) {
     if (job->frames[index].state != FrameState::kWaiting) pending_.insert(index);
   }

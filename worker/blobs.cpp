@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -17,6 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::chrono::seconds kDeadline{120};
+const grpc::Status kStopping{grpc::StatusCode::CANCELLED, "the worker is stopping"};
 
 class GrpcBlobs : public Blobs {
  public:
@@ -28,7 +30,8 @@ class GrpcBlobs : public Blobs {
   grpc::Status Get(const std::string& digest, std::string* bytes) override {
     if (FromCache(digest, bytes)) return grpc::Status::OK;
     grpc::ClientContext context;
-    context.set_deadline(std::chrono::system_clock::now() + kDeadline);
+    const Call call(*this, context);
+    if (!call.allowed()) return kStopping;
     v1::GetBlobRequest request;
     request.set_digest(digest);
     const auto reader = stub_->Get(&context, request);
@@ -54,7 +57,8 @@ class GrpcBlobs : public Blobs {
   grpc::Status Put(const std::string& digest, const std::string& bytes,
                    std::atomic<uint64_t>* progress) override {
     grpc::ClientContext context;
-    context.set_deadline(std::chrono::system_clock::now() + kDeadline);
+    const Call call(*this, context);
+    if (!call.allowed()) return kStopping;
     v1::PutBlobResponse response;
     const auto writer = stub_->Put(&context, &response);
     v1::PutBlobRequest request;
@@ -74,7 +78,36 @@ class GrpcBlobs : public Blobs {
     return writer->Finish();
   }
 
+  void Shutdown() override {
+    const std::lock_guard lock(mutex_);
+    shut_ = true;
+    for (grpc::ClientContext* context : calls_) context->TryCancel();
+  }
+
  private:
+  // Known to Shutdown while it lives.
+  class Call {
+   public:
+    Call(GrpcBlobs& blobs, grpc::ClientContext& context) : blobs_(blobs), context_(context) {
+      context.set_deadline(std::chrono::system_clock::now() + kDeadline);
+      const std::lock_guard lock(blobs.mutex_);
+      allowed_ = !blobs.shut_;
+      blobs.calls_.insert(&context);
+    }
+    ~Call() {
+      const std::lock_guard lock(blobs_.mutex_);
+      blobs_.calls_.erase(&context_);
+    }
+    Call(const Call&) = delete;
+    Call& operator=(const Call&) = delete;
+    bool allowed() const { return allowed_; }
+
+   private:
+    GrpcBlobs& blobs_;
+    grpc::ClientContext& context_;
+    bool allowed_;
+  };
+
   std::string PathOf(const std::string& digest) const { return cache_dir_ + "/" + digest; }
 
   bool FromCache(const std::string& digest, std::string* bytes) {
@@ -125,6 +158,9 @@ class GrpcBlobs : public Blobs {
   const std::string cache_dir_;
   const uint64_t cache_bytes_;
   std::mutex cache_mutex_;
+  std::mutex mutex_;
+  std::set<grpc::ClientContext*> calls_;
+  bool shut_ = false;
 };
 
 }  // namespace

@@ -20,6 +20,8 @@ class Blobs {
   // `progress` grows with each chunk sent.
   virtual grpc::Status Put(const std::string& digest, const std::string& bytes,
                            std::atomic<uint64_t>* progress) = 0;
+  // Ends the calls under way and refuses all later ones, from any thread.
+  virtual void Shutdown() {}
 };
 
 // cache_dir: empty for none; otherwise a folder that keeps at most `cache_bytes`, the oldest go

@@ -159,6 +159,7 @@ void WorkerImpl::End(Result<> result) {
   }
   held_.Stop();
   leases_->Shutdown();
+  blobs_->Shutdown();
   wake_.notify_all();
 }
 
@@ -319,8 +320,14 @@ void WorkerImpl::RenderLoop() {
   while (const std::shared_ptr<Lease> lease = held_.Next()) {
     const v1::Unit& unit = lease->grant.unit(0);
     UnitRenderer& renderer = lease->grant.alone() && child_ != nullptr ? *child_ : *renderer_;
-    Result<RenderedUnit> rendered = renderer.Render(
-        {unit.scene_digest(), unit.frame(), unit.frame_key()}, lease->progress, lease->cancel);
+    const UnitOrder order{unit.scene_digest(), unit.frame(), unit.frame_key()};
+    Backoff backoff(kFirstPause, kLongestPause, std::hash<std::string>{}(session_));
+    Result<RenderedUnit> rendered = renderer.Render(order, lease->progress, lease->cancel);
+    // That the coordinator is away for a moment is not the frame's failure.
+    while (!rendered.ok() && rendered.error().code == ErrorCode::kUnavailable && !lease->cancel) {
+      if (!Pause(backoff.Next())) break;
+      rendered = renderer.Render(order, lease->progress, lease->cancel);
+    }
     if (lease->cancel) {
       spdlog::info("frame {} was given up: its lease is lost", unit.frame());
       held_.Remove(lease);

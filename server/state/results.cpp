@@ -69,8 +69,8 @@ Answer<Outcome> Machine::Complete(const std::string& session_id, const Delivery&
   const bool agrees = key->done() && key->result()->pixel == delivery.pixel;
   bool known = agrees && (!delivery.blob_present || key->evidence.size() >= kEnoughEvidence);
   for (const ResultRow& result : key->evidence) {
-    known |= result.pixel == delivery.pixel &&
-             (result.attempt == delivery.attempt || (agrees && result.worker == worker.row.id));
+    known |= result.pixel == delivery.pixel && result.worker == worker.row.id &&
+             (agrees || result.attempt == delivery.attempt);
   }
   if (!known && !delivery.blob_present) return Outcome::kMissingBlob;
   end_attempt();
@@ -154,7 +154,7 @@ void Machine::Quarantine(Worker& worker, const std::string& why, Now now) {
     Key& key = keys_.at(digest);
     std::erase_if(key.evidence, [&](const ResultRow& result) {
       if (result.worker != worker.row.id) return false;
-      Write(DropResult{result.key, result.attempt, result.pixel});
+      Write(DropResult{result.key, result.attempt, result.worker, result.pixel});
       return true;
     });
     Settle(key, now);

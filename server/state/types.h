@@ -70,7 +70,8 @@ struct FrameRow {
   std::string error;
 };
 
-// One picture that was delivered for a key: a piece of evidence. Its identity is (key, attempt, pixel).
+// One picture that was delivered for a key: a piece of evidence. Its identity is (key,
+// attempt, worker, pixel).
 struct ResultRow {
   Digest key;
   AttemptId attempt;
@@ -99,6 +100,7 @@ struct WorkerRow {
 struct DropResult {
   Digest key;
   AttemptId attempt;
+  std::string worker;
   Digest pixel;
 };
 

@@ -20,7 +20,7 @@ namespace fjord::server {
 struct Rows {
   std::map<JobId, JobRow> jobs;
   std::map<std::pair<JobId, uint32_t>, FrameRow> frames;
-  std::map<std::tuple<Digest, AttemptId, Digest>, ResultRow> results;
+  std::map<std::tuple<Digest, AttemptId, std::string, Digest>, ResultRow> results;
   std::map<Digest, KeyRow> keys;
   std::map<std::string, WorkerRow> workers;
 
@@ -29,8 +29,12 @@ struct Rows {
       Rows& rows;
       void operator()(const JobRow& row) { rows.jobs[row.id] = row; }
       void operator()(const FrameRow& row) { rows.frames[{row.job, row.frame}] = row; }
-      void operator()(const ResultRow& row) { rows.results[{row.key, row.attempt, row.pixel}] = row; }
-      void operator()(const DropResult& row) { rows.results.erase({row.key, row.attempt, row.pixel}); }
+      void operator()(const ResultRow& row) {
+        rows.results[{row.key, row.attempt, row.worker, row.pixel}] = row;
+      }
+      void operator()(const DropResult& row) {
+        rows.results.erase({row.key, row.attempt, row.worker, row.pixel});
+      }
       void operator()(const KeyRow& row) { rows.keys[row.key] = row; }
       void operator()(const WorkerRow& row) { rows.workers[row.id] = row; }
     };

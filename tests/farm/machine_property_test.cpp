@@ -53,12 +53,10 @@ class Story {
         Complete();
         break;
       case 12:
-        if (const Held* held = Any())
-          farm_.Fail(held->session, held->grant, Pick(0, 8) == 0);
+        if (const Held* held = Any()) farm_.Fail(held->session, held->grant, Pick(0, 8) == 0);
         break;
       case 13:
-        if (const Held* held = Any())
-          farm_.Renew(held->session, held->grant, Pick(0, 4));
+        if (const Held* held = Any()) farm_.Renew(held->session, held->grant, Pick(0, 4));
         break;
       case 14:
         farm_.Pass(Pick(1, 1'500));
@@ -124,8 +122,7 @@ class Story {
     const std::string process = std::to_string(Pick(0, 2));
     std::vector<Holding> holdings;
     for (const Held& held : grants_) {
-      if (held.session.substr(0, 1) == worker && holdings.size() < 3 &&
-          Pick(0, 2) == 0) {
+      if (held.session.substr(0, 1) == worker && holdings.size() < 3 && Pick(0, 2) == 0) {
         holdings.push_back(BenchFarm::HoldingOf(held.grant));
       }
     }
@@ -142,9 +139,9 @@ class Story {
     const std::string session = Pick(0, 6) == 0 ? Worker() + "0" : held->session;
     const bool lie = liars_ && session[0] == 'd' && Pick(0, 2) == 0;
     const Grant grant = held->grant;
-    const auto answer = farm_.Deliver(
-        session, BenchFarm::Picture(grant, lie ? "lie " + std::to_string(Pick(0, 2))
-                                               : "picture of " + grant.key.Hex()));
+    const auto answer =
+        farm_.Deliver(session, BenchFarm::Picture(grant, lie ? "lie " + std::to_string(Pick(0, 2))
+                                                             : "picture of " + grant.key.Hex()));
     const Outcome* outcome = std::get_if<Outcome>(&answer);
     if (outcome == nullptr || lie) return;
     if (*outcome == Outcome::kCommitted || *outcome == Outcome::kDuplicate)
