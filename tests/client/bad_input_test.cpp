@@ -110,7 +110,7 @@ TEST_F(BadInputTest, CorrespondenceToMissingPoints) {
 }
 
 TEST_F(BadInputTest, SeveralDefectsAtOnce) {
-  const std::string file = folder_.Write("bad.scene", WithFractal("epsilon: -1 max_level: 1000"));
+  const std::string file = folder_.Write("bad.scene", WithFractal("epsilon: -1 pixels: -2"));
   const ProgramRun run = RunFjord({"check", file});
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
 }
