@@ -53,6 +53,9 @@ TEST(RetryTest, F9_PausesGrowToABoundAndDiffer) {
   EXPECT_GT(different, 10);
 }
 
+// The scripted coordinator's term: no machine is so busy that it lapses during a test.
+constexpr uint32_t kScriptTermMs = 60'000;
+
 v1::AcquireResponse GrantOf(uint64_t sequence, bool alone = false) {
   v1::AcquireResponse response;
   v1::Grant& grant = *response.add_grant();
@@ -131,7 +134,7 @@ class ScriptLeases : public LeaseClient {
     ++script_.joins;
     script_.forget_session = false;
     Reply<v1::JoinResponse> reply;
-    reply.value.set_term_ms(1'000);
+    reply.value.set_term_ms(kScriptTermMs);
     reply.value.set_renew_every_ms(20);
     for (const auto& holding : request.holding()) {
       script_.held_at_join.insert(holding.attempt().sequence());
@@ -149,7 +152,9 @@ class ScriptLeases : public LeaseClient {
                                [&] { return shut_ || script_.next <= script_.last; });
       if (script_.next > script_.last) return {};
     }
-    return {grpc::Status::OK, GrantOf(script_.next++)};
+    v1::AcquireResponse response = GrantOf(script_.next++);
+    response.mutable_grant(0)->set_term_ms(kScriptTermMs);
+    return {grpc::Status::OK, response};
   }
   Reply<v1::RenewResponse> Renew(const v1::RenewRequest& request) override {
     const std::lock_guard lock(script_.mutex);
@@ -161,7 +166,7 @@ class ScriptLeases : public LeaseClient {
       auto& verdict = *reply.value.add_verdict();
       *verdict.mutable_attempt() = entry.attempt();
       verdict.set_go_on(!script_.refuse_renewals);
-      verdict.set_term_ms(1'000);
+      verdict.set_term_ms(kScriptTermMs);
     }
     return reply;
   }
