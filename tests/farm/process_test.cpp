@@ -20,6 +20,10 @@
 namespace fjord::farm_test {
 namespace {
 
+// FJORD_TEST_LOG=debug shows what the programs say.
+const std::string kLog =
+    std::getenv("FJORD_TEST_LOG") != nullptr ? std::getenv("FJORD_TEST_LOG") : "err";
+
 std::string SceneText(int frames, int width, int height, int samples) {
   return "name: \"farm\"\n"
          "output { frames: " +
@@ -72,7 +76,7 @@ class Coordinator {
   // False: it ended before it listened.
   bool Start(const std::vector<std::pair<std::string, std::string>>& environment = {}) {
     process_.emplace(std::vector<std::string>{FJORD_SERVER_PROGRAM, "--listen",
-                                              "127.0.0.1:" + port_, "--data", data_, "--log", "err",
+                                              "127.0.0.1:" + port_, "--data", data_, "--log", kLog,
                                               "--lease-term-ms", term_, "--renew-ms", "100"},
                      environment);
     const std::string line = process_->ReadLine();
@@ -94,7 +98,7 @@ class Coordinator {
 
 std::unique_ptr<Process> StartWorker(const std::string& address, const std::string& id) {
   return std::make_unique<Process>(std::vector<std::string>{
-      FJORD_WORKER_PROGRAM, "--server", address, "--threads", "1", "--id", id, "--log", "err"});
+      FJORD_WORKER_PROGRAM, "--server", address, "--threads", "1", "--id", id, "--log", kLog});
 }
 
 v1::SubmitRequest Request(const std::string& scene_digest) {
@@ -162,6 +166,7 @@ TEST_P(WorkersTest, F2_FarmEqualsDirectRender) {
     workers.push_back(StartWorker(coordinator_.address(), "w" + std::to_string(i)));
   }
   Talk talk(coordinator_.address());
+  while (talk.Workers().value.worker_size() < GetParam()) std::this_thread::yield();
   const std::string job = Submit(talk, truth);
   ASSERT_TRUE(WaitUntil(Ended, job));
   ExpectTruth(talk, job, truth);
