@@ -79,7 +79,7 @@ LineRules::Size LineRules::Measure(const LineSegment& s) const {
   const double length2 = rest ? s.rest2 : glm::dot(along, along);
   if (settings_.split == Split::kAdaptive && fine.focal > 0) {
     const auto project = [&](int row, const Vec3& p) {
-      const double* m = &view_.rows[static_cast<size_t>(4 * row)];
+      const double* m = &view_.rows[4 * static_cast<size_t>(row)];
       return m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3];
     };
     const double wa = project(2, s.a.position);

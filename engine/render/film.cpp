@@ -161,10 +161,11 @@ void Film::ShadeSea(TileBuffer* tile, int32_t y, const Rgb& background) {
     size_t s = 0;
     while (s < samples && owner_[x * samples + s] != kSea) ++s;
     if (s == samples) continue;
+    constexpr int32_t kHalf = kFixedOne / 2;  // a pixel's middle
     const int32_t pixel = tile->rect().x + static_cast<int32_t>(x);
     sea_.place[size] = static_cast<uint32_t>(x);
-    sea_.x[size] = static_cast<double>(pixel * kFixedOne + kFixedOne / 2);
-    sea_.y[size] = static_cast<double>(y * kFixedOne + kFixedOne / 2);
+    sea_.x[size] = static_cast<double>(pixel * kFixedOne + kHalf);
+    sea_.y[size] = static_cast<double>(y * kFixedOne + kHalf);
     sea_.depth[size] = depth[x * samples + s];  // that of the middle may lie beyond the horizon
     ++size;
   }
