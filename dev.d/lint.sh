@@ -57,7 +57,7 @@ self_test() {
     echo "self-test: clang-format found nothing wrong" >&2
     return 1
   fi
-  printf '#include <string>\nint f(std::string a) { return a.empty(); }\n' >"$folder/a.cpp"
+  printf '#include <string>\n#include <utility>\nbool f(std::string a) {\n  std::string b = std::move(a);\n  return a.empty() == b.empty();\n}\n' >"$folder/a.cpp"
   if clang-tidy --quiet "$folder/a.cpp" -- -std=c++20 >/dev/null 2>&1; then
     echo "self-test: clang-tidy found nothing wrong" >&2
     return 1
