@@ -109,7 +109,7 @@ TEST_F(FarmCliTest, AServerThatIsDownIsCode3WithTheRemedy) {
   for (std::vector<std::string> command : commands) {
     command.push_back("--server");
     command.push_back("127.0.0.1:1");
-    const ProgramRun run = RunFjord(command);
+    const ProgramRun run = RunFjord(command);  // no gRPC runs here in this test
     EXPECT_EQ(run.code, 3) << command[0] << run.err;
     EXPECT_EQ(run.out, "") << command[0];
     EXPECT_THAT(run.err, HasSubstr("127.0.0.1:1")) << command[0];
@@ -123,7 +123,7 @@ TEST_F(FarmCliTest, AServerThatIsDownIsCode3WithTheRemedy) {
 TEST_F(FarmCliTest, TheServerComesFromTheEnvironment) {
   ProgramOptions options;
   options.environment = {"FJORD_SERVER=" + Serve(&jobs_)};
-  const ProgramRun run = RunFjord({"status", "7", "--json"}, options);
+  const ProgramRun run = RunFjordAnew({"status", "7", "--json"}, options);
   EXPECT_EQ(run.code, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["state"], "running");
@@ -138,20 +138,20 @@ TEST_F(FarmCliTest, AnotherVersionIsCode3) {
        {std::vector<std::string>{"status", "7"}, {"submit", scene}}) {
     std::vector<std::string> arguments = command;
     arguments.insert(arguments.end(), {"--server", nothing});
-    const ProgramRun run = RunFjord(arguments);
+    const ProgramRun run = RunFjordAnew(arguments);
     EXPECT_EQ(run.code, 3) << run.err;
     EXPECT_THAT(run.err, HasSubstr("another version"));
   }
 }
 
 TEST_F(FarmCliTest, AnUnknownJobIsCode1) {
-  const ProgramRun run = RunFjord({"status", "8", "--server", Serve(&jobs_)});
+  const ProgramRun run = RunFjordAnew({"status", "8", "--server", Serve(&jobs_)});
   EXPECT_EQ(run.code, 1);
   EXPECT_THAT(run.err, HasSubstr("there is no job '8'"));
 }
 
 TEST_F(FarmCliTest, WatchGoesOnWhenTheServerComesBack) {
-  const ProgramRun run = RunFjord({"watch", "7", "--server", Serve(&jobs_)});
+  const ProgramRun run = RunFjordAnew({"watch", "7", "--server", Serve(&jobs_)});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("trying again"));
   EXPECT_THAT(run.err, HasSubstr("10 of 10 frames"));
@@ -160,13 +160,13 @@ TEST_F(FarmCliTest, WatchGoesOnWhenTheServerComesBack) {
 
 TEST_F(FarmCliTest, WatchOfAServerThatStaysAwayIsCode3) {
   jobs_.end = v1::JOB_STATE_UNSPECIFIED;
-  const ProgramRun run = RunFjord({"watch", "7", "--patience", "0", "--server", Serve(&jobs_)});
+  const ProgramRun run = RunFjordAnew({"watch", "7", "--patience", "0", "--server", Serve(&jobs_)});
   EXPECT_EQ(run.code, 3) << run.err;
 }
 
 TEST_F(FarmCliTest, WatchOfAFailedJobIsCode1WithItsError) {
   jobs_.end = v1::FAILED;
-  const ProgramRun run = RunFjord({"watch", "7", "--json", "--server", Serve(&jobs_)});
+  const ProgramRun run = RunFjordAnew({"watch", "7", "--json", "--server", Serve(&jobs_)});
   EXPECT_EQ(run.code, 1);
   EXPECT_THAT(run.err, HasSubstr("frame 5: too deep"));
   EXPECT_EQ(nlohmann::json::parse(run.out)["state"], "failed");

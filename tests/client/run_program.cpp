@@ -96,8 +96,12 @@ ProgramRun RunProgram(const std::vector<std::string>& argv, const ProgramOptions
 }
 
 ProgramRun RunFjord(std::vector<std::string> arguments, const ProgramOptions& options) {
-  const bool alone = ReadAll("/proc/self/status").find("\nThreads:\t1\n") != std::string::npos;
-  arguments.insert(arguments.begin(), alone ? "" : FJORD_PROGRAM);
+  arguments.insert(arguments.begin(), "");
+  return RunProgram(arguments, options);
+}
+
+ProgramRun RunFjordAnew(std::vector<std::string> arguments, const ProgramOptions& options) {
+  arguments.insert(arguments.begin(), FJORD_PROGRAM);
   return RunProgram(arguments, options);
 }
 

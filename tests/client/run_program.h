@@ -57,10 +57,12 @@ class RunningProgram {
 
 ProgramRun RunProgram(const std::vector<std::string>& argv, const ProgramOptions& options = {});
 
-// fjord ARGS... While this process has one thread, as a copy of it that runs the command line
-// (starting the program anew takes most of a second, for the picture libraries it is linked with);
-// else anew.
+// fjord ARGS... as a copy of this process that runs the command line: starting the program anew
+// takes most of a second, for the picture libraries it is linked with. Not in a process that runs
+// gRPC.
 ProgramRun RunFjord(std::vector<std::string> arguments, const ProgramOptions& options = {});
+// fjord ARGS..., the program itself.
+ProgramRun RunFjordAnew(std::vector<std::string> arguments, const ProgramOptions& options = {});
 
 // Waits until `done` says true, a minute at most; the answer is what it said last.
 bool WaitUntil(const std::function<bool()>& done);
