@@ -20,6 +20,7 @@ namespace fjord::server {
 namespace {
 
 constexpr size_t kMaxDiskWork = 4'000;
+constexpr std::chrono::milliseconds kLastWords{200};
 constexpr int kKeepaliveMs = 20'000;
 constexpr int kShortestPingMs = 5'000;
 
@@ -130,7 +131,8 @@ void ServerImpl::Stop() {
   if (std::exchange(stopped_, true)) return;
   if (coordinator_ != nullptr) coordinator_->Close();
   if (grpc_ != nullptr) {
-    grpc_->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(2));
+    // The calls are ended; what is left are idle connections whose clients do not look.
+    grpc_->Shutdown(std::chrono::system_clock::now() + kLastWords);
     grpc_->Wait();
     grpc_.reset();
   }

@@ -24,7 +24,7 @@ constexpr size_t kMaxMade = 2;       // pictures on their way
 constexpr milliseconds kMargin{50};  // stops this long before a deadline
 constexpr milliseconds kLongestWait{20'000};
 constexpr milliseconds kFirstPause{50};
-constexpr milliseconds kLongestPause{2'000};
+constexpr milliseconds kLongestPause{500};
 constexpr uint64_t kMaxErrorBytes = 2'000;
 
 std::string RandomName() {
@@ -105,7 +105,7 @@ std::shared_ptr<grpc::Channel> Connect(const std::string& server) {
   // A coordinator that comes back is found within seconds.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 50);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 100);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1'000);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 500);
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   return grpc::CreateCustomChannel(server, grpc::InsecureChannelCredentials(), arguments);

@@ -249,7 +249,7 @@ class Sweep {
  public:
   Sweep(const Truth& truth, const std::string& data, long crash_after)
       : truth_(truth), data_(data), coordinator_(data) {
-    coordinator_.Term(100);
+    coordinator_.Term(150);
     Start({{"LD_PRELOAD", FJORD_CRASH_SHIM},
            {"FJORD_CRASH_DIR", data},
            {"FJORD_CRASH_AFTER", std::to_string(crash_after)}});
@@ -259,15 +259,11 @@ class Sweep {
 
   void Run() {
     std::string scene;
-    Must([&] {
-      scene = talk_->PutBytes(truth_.scene);
-      return scene.size() == 64;
-    });
-    blobs_.insert(scene);
+    Must([&] { return Put(truth_.scene, &scene); });
     Must([&] {
       const auto said = talk_->Submit(Request(scene));
       if (said.ok()) job_ = said.value.job_id();
-      return said.ok();
+      return said.status;
     });
     for (int rounds = 0; done_.size() < truth_.pixels.size(); ++rounds) {
       ASSERT_LT(rounds, 1'000);
@@ -275,39 +271,37 @@ class Sweep {
       Must([&] {
         const auto said = talk_->Acquire(session_, ++number_, 2'000);
         if (said.ok() && said.value.grant_size() > 0) grant = said.value.grant(0);
-        return said.ok();
+        return said.status;
       });
+      if (testing::Test::HasFatalFailure()) return;
       if (grant.unit_size() == 0) continue;
       held_ = {grant};
       const uint32_t frame = grant.unit(0).frame();
       EXPECT_EQ(grant.unit(0).frame_key(), truth_.key.at(frame));
       std::string blob;
-      Must([&] {
-        blob = talk_->PutBytes(truth_.pictures.at(frame));
-        return blob.size() == 64;
-      });
-      blobs_.insert(blob);
+      Must([&] { return Put(truth_.pictures.at(frame), &blob); });
       Must([&] {
         const auto said = talk_->CompleteWith(session_, grant, truth_.pixels.at(frame), blob);
         if (said.ok()) {
           EXPECT_LE(said.value.outcome(0), v1::CompleteResponse::DUPLICATE);
         }
-        return said.ok();
+        return said.status;
       });
+      if (testing::Test::HasFatalFailure()) return;
       held_.clear();
       done_.insert(frame);
     }
-    Must([&] { return talk_->GetJob(job_).ok(); });
+    ExpectAllIsThere();
     coordinator_.process().Kill(SIGTERM);
     const int status = coordinator_.process().Wait();
-    if (WIFSIGNALED(status)) {
-      ++crashes_;
-    } else {
+    if (!WIFSIGNALED(status)) {
       EXPECT_EQ(status, 0);
+      if (crashed()) return;
+    } else {
+      ++crashes_;
     }
     Start({});
-    EXPECT_EQ(talk_->GetJob(job_).value.state(), v1::DONE);
-    ExpectTruth(*talk_, job_, truth_);
+    if (!testing::Test::HasFatalFailure()) ExpectAllIsThere();
   }
 
  private:
@@ -319,11 +313,26 @@ class Sweep {
     }
     talk_ = std::make_unique<Talk>(coordinator_.address());
     CheckAnswered();
+    JoinAnew();
+  }
+
+  void ExpectAllIsThere() {
+    Must([&] { return talk_->GetJob(job_).status; });
+    if (testing::Test::HasFatalFailure()) return;
+    EXPECT_EQ(talk_->GetJob(job_).value.state(), v1::DONE);
+    ExpectTruth(*talk_, job_, truth_);
+  }
+  void JoinAnew() {
     session_ = "s" + std::to_string(++sessions_);
     number_ = 0;
     if (!talk_->Join("w", session_, held_).ok()) Recover();
   }
-
+  grpc::Status Put(const std::string& bytes, std::string* digest) {
+    *digest = Sha256Of(bytes).Hex();
+    const grpc::Status status = talk_->Put(*digest, bytes.size(), {bytes});
+    if (status.ok()) blobs_.insert(*digest);
+    return status;
+  }
   void ExpectKilled() {
     const int status = coordinator_.process().Wait();
     ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) << "status " << status;
@@ -334,10 +343,17 @@ class Sweep {
     if (!testing::Test::HasFatalFailure()) Start({});
   }
   // Asks until it is answered.
-  void Must(const std::function<bool()>& step) {
-    for (int tries = 0; !testing::Test::HasFatalFailure() && !step(); ++tries) {
-      ASSERT_LT(tries, 5);
-      Recover();
+  void Must(const std::function<grpc::Status()>& step) {
+    for (int tries = 0; !testing::Test::HasFatalFailure(); ++tries) {
+      const grpc::Status status = step();
+      if (status.ok()) return;
+      ASSERT_LT(tries, 50) << status.error_message();
+      if (status.error_code() == grpc::StatusCode::NOT_FOUND) {
+        JoinAnew();  // silent for longer than its term
+      } else {
+        ASSERT_EQ(status.error_code(), grpc::StatusCode::UNAVAILABLE) << status.error_message();
+        Recover();
+      }
     }
   }
 
