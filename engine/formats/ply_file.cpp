@@ -1,6 +1,6 @@
 // Reading .ply, ASCII and both binary forms. Elements: vertex (x y z, red green blue), face
-// (vertex_indices or vertex_index), edge (vertex1 vertex2; chains become curves). Other elements and
-// properties are passed over.
+// (vertex_indices or vertex_index), edge (vertex1 vertex2; chains become curves). Other elements
+// and properties are passed over.
 #include <algorithm>
 #include <array>
 
