@@ -10,21 +10,23 @@
 #   --probe   a probe already built, in place of the short form's g++ build
 #   --work    where to build (default build/gate)
 #   --native, --cross   only this processor's builds, or only the others'
+#   --only WORD         only the builds whose names hold WORD: clang, s390x, arm64-O3 ...
 # Exit 0 equal, 1 different or not buildable, 77 with --cross alone where the foreign libraries cannot
 # be had (no network).
 set -euo pipefail
 
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)
 root=$(dirname -- "$here")
-form=full work=$root/build/gate probe='' native=1 cross=1
+form=full work=$root/build/gate probe='' native=1 cross=1 only=''
 while (($#)); do
   case $1 in
     --short | --full | --update) form=${1#--} ;;
     --probe) probe=$2 && shift ;;
     --work) work=$2 && shift ;;
+    --only) only=$2 && shift ;;
     --native) cross=0 ;;
     --cross) native=0 ;;
-    *) sed -n '2,16p' "${BASH_SOURCE[0]}" >&2 && exit 2 ;;
+    *) sed -n '2,17p' "${BASH_SOURCE[0]}" >&2 && exit 2 ;;
   esac
   shift
 done
@@ -37,6 +39,7 @@ export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$root}
 jobs=$(nproc)
 unset FJORD_SIMD
 
+wanted() { [[ $1 == *"$only"* ]]; }
 say() { printf '%s\n' "$*" >&2; }
 
 # build NAME CMAKE-ARGUMENT...: leaves $work/NAME/tests/gate/fjord_probe.
@@ -116,6 +119,7 @@ sysroot() {
 # foreign ARCHITECTURE TRIPLE QEMU OPTIMISATION
 foreign() {
   local arch=$1 triple=$2 qemu=$3 level=$4 dir=$work/sysroot-$1
+  wanted "$arch-$level" || return 0
   if ! command -v "$triple-g++" >/dev/null || ! command -v "$qemu" >/dev/null; then
     say "gate: $triple-g++ or $qemu is missing: apt-get install g++-$triple qemu-user-static"
     exit 1
@@ -135,6 +139,7 @@ if ((native)); then
   if [[ $form == full ]]; then
     for level in O3 O2 O0; do
       for compiler in g++ clang++; do
+        wanted "$compiler-$level" || continue
         build "$compiler-$level" -DCMAKE_CXX_COMPILER=$compiler -DCMAKE_CXX_FLAGS_RELEASE="-$level"
         runs "$compiler-$level" "$work/$compiler-$level/tests/gate/fjord_probe"
       done

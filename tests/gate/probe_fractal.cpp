@@ -96,19 +96,23 @@ Digest DigestOf(const WeldedShape& shape) {
     canon.Add(shape.level[v], 1);
     canon.Add(shape.coast[v], 1);
   }
-  std::vector<std::vector<uint64_t>> faces;
+  // A face is one hash, whichever point leads: libstdc++ 12 compares vectors of wide integers
+  // wrongly on big-endian machines (memcmp of as many bytes as there are elements).
+  std::vector<uint64_t> faces;
   size_t at = 0;
   for (const uint32_t size : shape.mesh.face_size) {
-    std::vector<uint64_t> face;
-    for (uint32_t i = 0; i < size; ++i) face.push_back(content[shape.mesh.face_vertex[at + i]]);
+    const uint32_t* corner = &shape.mesh.face_vertex[at];
+    uint32_t lead = 0;
+    for (uint32_t i = 1; i < size; ++i) {
+      if (content[corner[i]] < content[corner[lead]]) lead = i;
+    }
+    uint64_t hash = size;
+    for (uint32_t i = 0; i < size; ++i) hash = Mix64(hash + content[corner[(lead + i) % size]]);
+    faces.push_back(hash);
     at += size;
-    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
-    faces.push_back(std::move(face));
   }
   std::sort(faces.begin(), faces.end());
-  for (const auto& face : faces) {
-    for (const uint64_t v : face) canon.Add(v);
-  }
+  for (const uint64_t face : faces) canon.Add(face);
   return canon.Finish();
 }
 
