@@ -250,7 +250,11 @@ class Sweep {
   Sweep(const Truth& truth, const std::string& data, long crash_after)
       : truth_(truth), data_(data), coordinator_(data) {
     coordinator_.Term(150);
-    Start({{"LD_PRELOAD", FJORD_CRASH_SHIM},
+    // By name: the list of LD_PRELOAD is split at spaces, which a path may hold.
+    const std::string shim = FJORD_CRASH_SHIM;
+    const size_t slash = shim.rfind('/');
+    Start({{"LD_PRELOAD", shim.substr(slash + 1)},
+           {"LD_LIBRARY_PATH", shim.substr(0, slash)},
            {"FJORD_CRASH_DIR", data},
            {"FJORD_CRASH_AFTER", std::to_string(crash_after)}});
   }
