@@ -18,7 +18,7 @@ namespace {
 
 class CountSink final : public StreamSink {
  public:
-  bool Wants(const Vec3&, const Vec3&, const Vec3&, double) override { return true; }
+  bool Wants(const Vec3&, const Vec3&, const Vec3&, const StreamReach&) override { return true; }
   void Take(const StreamBatch& batch) override {
     benchmark::DoNotOptimize(batch.vertices.data());
     benchmark::DoNotOptimize(batch.triangles.data());

@@ -16,6 +16,8 @@
 // M4 Stream always ends: no edge passes settings.max_level.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -63,13 +65,38 @@ struct StreamBatch {
   std::span<const Rgb> colors;                        // none, or one a vertex
 };
 
+// How far from a triangle what is made of it can lie: at p + s w + r, p in the triangle, |s| <=
+// along, w in the hull of `way`, |r| <= around. Terrain moves along its normals, so a tile left or
+// right of it is further away than one above.
+struct StreamReach {
+  StreamReach(double all_around) : around(all_around) {}  // NOLINT: a number is a reach
+
+  double around = 0;
+  double along = 0;
+  std::array<Vec3, 3> way{Vec3(0), Vec3(0), Vec3(0)};
+
+  // How far towards either side along the unit vector `direction`.
+  double Towards(const Vec3& direction) const {
+    double most = 0;
+    for (const Vec3& w : way) {
+      const double d = w.x * direction.x + w.y * direction.y + w.z * direction.z;
+      most = std::max(most, d < 0 ? -d : d);
+    }
+    return around + along * most;
+  }
+  // How far at all.
+  double Any() const {
+    return around + along * std::max(std::max(Length(way[0]), Length(way[1])), Length(way[2]));
+  }
+};
+
 // What the consumer of a stream says. Called from the thread that streams.
 class StreamSink {
  public:
   virtual ~StreamSink() = default;
   // May anything within `reach` of the triangle (or, for curves, of the segment a-b, with c = b)
   // be wanted? Object space, now. Must never say no wrongly; yes costs time only.
-  virtual bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, double reach) = 0;
+  virtual bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) = 0;
   virtual void Take(const StreamBatch& batch) = 0;
 };
 

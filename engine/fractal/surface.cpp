@@ -62,7 +62,10 @@ class WorkspaceLease {
 class PreparedSurface final : public PreparedFractal {
  public:
   PreparedSurface(CoarseSurface coarse, const SurfaceRules& rules, uint64_t seed)
-      : coarse_(std::move(coarse)), rules_(rules), reach_(rules_), seed_(seed) {
+      : coarse_(std::move(coarse)), rules_(rules), inland_(rules), reach_(rules_), seed_(seed) {
+    // Away from coasts, edges need not know their sites where sites say nothing else.
+    inland_.coast = false;
+    inland_.sites = rules.direction == Direction::kEdge || rules.direction == Direction::kFace;
     // Rounding of positions, over all levels; far above what the operations of a level can lose.
     position_slack_ = coarse_.largest * 1e-12;
     Patch patch;
@@ -86,7 +89,7 @@ class PreparedSurface final : public PreparedFractal {
     for (const StreamVertex& v : r.vertex) {
       farthest = std::max(farthest, Length(v.position - ball.center));
     }
-    ball.radius = (farthest + ReachOf(r, sites)) * (1 + 1e-9);
+    ball.radius = (farthest + ReachOf(r, sites).Any()) * (1 + 1e-9);
     return ball;
   }
 
@@ -133,7 +136,14 @@ class PreparedSurface final : public PreparedFractal {
     return r;
   }
 
-  double ReachOf(const PatchRoot& root, const EdgeSite* sites) const {
+  // What its edges are split by: those of an inland triangle stay inland.
+  const SurfaceRules& RulesOf(const PatchRoot& root, const EdgeSite* sites) const {
+    bool coast = sites[0].coast > 0;
+    for (const uint32_t site : root.site) coast |= sites[site].coast > 0;
+    return coast ? rules_ : inland_;
+  }
+
+  StreamReach ReachOf(const PatchRoot& root, const EdgeSite* sites) const {
     ReachInput input;
     input.level = root.level;
     input.stretch = 0;
@@ -148,7 +158,25 @@ class PreparedSurface final : public PreparedFractal {
       input.stretch = std::max<double>(input.stretch, root.vertex[k].stretch);
       input.farthest2 = std::max<double>(input.farthest2, root.vertex[k].eye_distance2);
     }
-    return reach_(input) + position_slack_;
+    const SurfaceReach::Parts parts = reach_(input);
+    StreamReach reach(parts.coasts + position_slack_);
+    // Directions are means of the corners' and stay in their cone: with d the least product of two,
+    // a mean of them is sqrt((1 + 2 d) / 3) long at least.
+    double closest = 1;
+    for (int k = 0; k < 3; ++k) {
+      closest = std::min(
+          closest, glm::dot(root.vertex[k].direction, root.vertex[(k + 1) % 3].direction));
+    }
+    const bool straight =
+        rules_.variant == Variant::kFixed && rules_.direction == Direction::kVertex;
+    if (!straight || !(closest > -.25)) {
+      reach.around += parts.offsets;
+      return reach;
+    }
+    reach.along = parts.offsets;
+    const double longest = (1 + 1e-9) / std::sqrt((1 + 2 * closest) * (1. / 3));
+    for (size_t k = 0; k < 3; ++k) reach.way[k] = root.vertex[k].direction * longest;
+    return reach;
   }
 
   // About how many leaves a triangle becomes: a leaf has edges of half to once the longest short
@@ -172,22 +200,24 @@ class PreparedSurface final : public PreparedFractal {
     return most * 1.25;
   }
 
-  void Load(const PatchRoot& root, const EdgeSite* sites, size_t limit, Patch& patch) const {
+  void Load(const PatchRoot& root, const EdgeSite* sites, bool sites_kept, size_t limit,
+            Patch& patch) const {
     patch.Clear(sites, !coarse_.colors.empty(), limit);
     for (uint32_t k = 0; k < 3; ++k) patch.AddVertex(root.vertex[k], root.color[k]);
     for (uint32_t k = 0; k < 3; ++k) {
       patch.AddEdge(k, (k + 1) % 3, root.length2[k], root.current2[k], root.site[k]);
     }
-    patch.AddTriangle({0, 1, 2}, {0, 1, 2}, 0, rules_.sites);
+    patch.AddTriangle({0, 1, 2}, {0, 1, 2}, 0, sites_kept);
   }
 
   // False where the tables would grow far beyond what was expected; nothing was emitted.
   bool Expand(const PatchRoot& root, const EdgeSite* sites, size_t hint, Patch& patch,
               StreamSink& sink, StreamStats& stats) const {
-    Load(root, sites, 3 * hint + 64, patch);
+    const SurfaceRules& rules = RulesOf(root, sites);
+    Load(root, sites, rules.sites, 3 * hint + 64, patch);
     uint32_t level = root.level;
     PatchStep step;
-    while ((step = patch.Step(rules_, level)) == PatchStep::kSplit) ++level;
+    while ((step = patch.Step(rules, level)) == PatchStep::kSplit) ++level;
     if (step == PatchStep::kFull) return false;
     StreamBatch batch;
     batch.vertices = {patch.vertex.data(), patch.vertex_count};
@@ -204,8 +234,9 @@ class PreparedSurface final : public PreparedFractal {
   void Cut(const PatchRoot& root, const EdgeSite* sites, Workspace& space,
            StreamStats& stats) const {
     Patch& patch = space.patch;
-    Load(root, sites, kMostPoints, patch);
-    const PatchStep step = patch.Step(rules_, root.level);
+    const SurfaceRules& rules = RulesOf(root, sites);
+    Load(root, sites, rules.sites, kMostPoints, patch);
+    const PatchStep step = patch.Step(rules, root.level);
     FJORD_CHECK(step == PatchStep::kSplit, root.level);
     stats.midpoints += patch.vertex_count - 3;
     stats.depth = std::max(stats.depth, root.level + 1);
@@ -219,7 +250,7 @@ class PreparedSurface final : public PreparedFractal {
         if (patch.colors) child.color[k] = patch.color[v];
         child.length2[k] = patch.edge_length2[e];
         child.current2[k] = patch.edge_current2[e];
-        child.site[k] = rules_.sites ? patch.edge_site[e] : 0;
+        child.site[k] = rules.sites ? patch.edge_site[e] : 0;
       }
       space.stack.push_back(child);
     }
@@ -227,6 +258,7 @@ class PreparedSurface final : public PreparedFractal {
 
   CoarseSurface coarse_;
   SurfaceRules rules_;
+  SurfaceRules inland_;
   SurfaceReach reach_;
   uint64_t seed_;
   double position_slack_ = 0;

@@ -96,12 +96,6 @@ Result<SurfaceRules> MakeSurfaceRules(const FractalSettings& given, const Adapti
 SurfaceReach::SurfaceReach(const SurfaceRules& rules) : rules_(&rules) {
   const double sideways = rules.perturb * .5;
   spread_ = std::sqrt(1 + sideways * sideways) * kSlack;
-  const double ratio = exact::Exp2(-2 * rules.half_H);
-  double term = 1;
-  for (uint32_t k = 0; k < kMaxSurfaceLevel; ++k) {
-    geometric_[k + 1] = geometric_[k] + term;
-    term *= ratio;
-  }
 }
 
 // The longest length, squared, that is short at this distance.
@@ -118,32 +112,31 @@ double SurfaceReach::LongestShort2(double distance2) const {
 double SurfaceReach::Affine(const ReachInput& input, uint32_t levels) const {
   const SurfaceRules& rules = *rules_;
   const double longest2 = input.longest_rest2 * kSlack;
-  const double amount = rules.affine_scale * GaussianBound(static_cast<int>(rules.uniforms)) *
-                        input.stretch * exact::Pow(longest2, rules.half_H);
-  if (rules.current()) return amount * levels;
+  const double amount =
+      rules.affine_scale * GaussianBound(static_cast<int>(rules.uniforms)) * input.stretch;
+  if (rules.current()) return amount * exact::Pow(longest2, rules.half_H) * levels;
   const double far = std::sqrt(input.farthest2);
   const double nearest = far * (1 - kDistanceSlack) - std::sqrt(longest2);
   const double farthest = far * (1 + 1e-5);
   const double e2 = LongestShort2(farthest * farthest) * kSlack;
   const double f2 = LongestShort2(nearest > 0 ? nearest * nearest : 0);
-  uint32_t count = 0;
-  for (double now2 = longest2; now2 > f2 && count < levels; ++count) {
+  double sum = 0;
+  double now2 = longest2;
+  for (uint32_t k = 0; now2 > f2 && k < levels; ++k) {
+    sum += exact::Pow(now2, rules.half_H) * kSlack;
     now2 = std::min(now2, std::max((now2 + 2 * e2) * .25, e2 - f2 * .25)) * kSlack;
   }
-  if (count == 0) return 0;
-  const double tail2 = std::min(std::max(e2 * (2. / 3), e2 - f2 * .25) * kSlack, longest2);
-  const double tail = longest2 > 0 ? exact::Pow(tail2 / longest2, rules.half_H) : 0;
-  return amount * (geometric_[count] + (count - 1) * tail);
+  return amount * sum;
 }
 
-double SurfaceReach::operator()(const ReachInput& input) const {
+SurfaceReach::Parts SurfaceReach::operator()(const ReachInput& input) const {
   const SurfaceRules& rules = *rules_;
   const uint32_t levels = rules.max_level > input.level ? rules.max_level - input.level : 0;
-  if (levels == 0) return 0;
+  if (levels == 0) return {};
   const double coast = kSimilarClamp * std::sqrt(input.longest_coast2);
   double reach = 0;
   if (rules.law == Law::kAffine) {
-    reach = Affine(input, levels) * spread_ + coast / (1 - .7002);
+    reach = Affine(input, levels) * spread_;
   } else {
     const double bound = GaussianBound(static_cast<int>(rules.uniforms));
     double longest = std::sqrt(input.longest_now2) * kSlack;
@@ -151,14 +144,16 @@ double SurfaceReach::operator()(const ReachInput& input) const {
     for (uint32_t level = input.level; level < rules.max_level; ++level) {
       const double share = rules.law == Law::kShih ? rules.shih[level] * bound
                                                    : std::min(rules.similar * bound, kSimilarClamp);
-      const double offset = share * spread_ * longest + level_coast;
-      reach += offset;
+      const double moved = share * spread_ * longest;
+      const double offset = moved + level_coast;
+      reach += moved;
       longest = std::max(longest + offset, longest * .5 + 2 * offset) * kSlack;
       level_coast *= .7002;
     }
   }
   reach = reach * kSlack * kSlack;
-  return reach == reach ? reach : std::numeric_limits<double>::infinity();
+  return {reach == reach ? reach : std::numeric_limits<double>::infinity(),
+          coast / (1 - .7002) * kSlack};
 }
 
 }  // namespace fjord

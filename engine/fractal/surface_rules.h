@@ -74,9 +74,8 @@ struct ReachInput {
 //          short anywhere in the triangle. A long edge halves; a three-split's inner edges are half
 //          an outer one; the median to the longer of two long edges has at most
 //          (Lambda^2 + 2 e^2) / 4, the median to a single long one (4 e^2 - f^2) / 4. So
-//          Lambda_k^2 <= Lambda^2 / 4^k + c^2, c^2 = max(2 e^2 / 3, e^2 - f^2 / 4), and as x^(H/2)
-//          is subadditive the sum of Lambda_k^H is at most Lambda^H sum 2^(-kH) + (K - 1) c^H, K
-//          levels until Lambda_k <= f. Where the split rule reads other lengths, Lambda_k = Lambda.
+//          the sum of Lambda_k^H over the levels until Lambda_k <= f is taken term by term. Where
+//          the split rule reads other lengths, Lambda_k = Lambda.
 // similar, shih   offsets are c_k times current lengths, which grow to at most
 //          max(1 + c_k, 1/2 + 2 c_k) Lambda_k.
 // coasts   offsets of at most .49 of the edge, whose halves have at most .7001 of it.
@@ -84,16 +83,20 @@ struct ReachInput {
 // A slack covers rounding. +infinity where the bound overflows.
 class SurfaceReach {
  public:
+  struct Parts {
+    double offsets = 0;  // along the directions of the rule
+    double coasts = 0;   // level, any way
+  };
+
   explicit SurfaceReach(const SurfaceRules& rules);
-  double operator()(const ReachInput& input) const;
+  Parts operator()(const ReachInput& input) const;
 
  private:
   double Affine(const ReachInput& input, uint32_t levels) const;
   double LongestShort2(double distance2) const;
 
   const SurfaceRules* rules_;
-  double spread_;                                         // largest offset of one unit of amount
-  std::array<double, kMaxSurfaceLevel + 1> geometric_{};  // sum over k < K of 2^(-kH)
+  double spread_;  // largest offset of one unit of amount
 };
 
 }  // namespace fjord

@@ -3,210 +3,353 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/base/check.h"
 #include "engine/base/simd.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/render/coverage.cpp"
 #include "hwy/foreach_target.h"  // NOLINT: compiles this file once per target
 #include "hwy/highway.h"
+// after highway.h: compiled per target
+#include "engine/fractal/stream_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fjord {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
+using I32 = hn::RebindToSigned<D32>;
+using VI = hn::Vec<I32>;
+using MI = hn::Mask<I32>;
+constexpr size_t kLanes32 = hn::MaxLanes(D32());
 
-using F64 = hn::ScalableTag<double>;
-using I32 = hn::ScalableTag<int32_t>;
+// Highway 1.0 compares integers by < and > only.
+HWY_INLINE MI AtLeast(VI a, VI b) { return hn::Not(hn::Lt(a, b)); }
 
-// ToFixed of view.cpp: saturates, then floor(v + 1/2). Lanes with NaN are replaced by the caller.
-template <class D, class V>
-HWY_INLINE hn::Vec<hn::Rebind<int32_t, D>> Fixed(D d, V v) {
-  const auto guard = hn::Set(d, static_cast<double>(kFixedGuard));
-  const auto inside = hn::Min(hn::Max(v, hn::Neg(guard)), guard);
-  const hn::Rebind<int32_t, D> di;
-  return hn::DemoteTo(di, hn::Floor(hn::Add(inside, hn::Set(d, .5))));
+HWY_INLINE VI Signed(V32 v) { return hn::BitCast(I32(), v); }
+HWY_INLINE V32 Unsigned(VI v) { return hn::BitCast(D32(), v); }
+
+// The corners of up to kCoverageBlock triangles, x y pairs.
+struct CornerBlock {
+  alignas(64) int64_t corner[3][kCoverageBlock + 16];
+
+  void Load(const Triangle* triangles, size_t count, const int32_t* xy) {
+    for (size_t i = 0; i < count; ++i) {
+      for (size_t k = 0; k < 3; ++k) {
+        std::memcpy(&corner[k][i], xy + 2 * size_t{triangles[i][k]}, 8);
+      }
+    }
+    // Triangles without area.
+    for (size_t i = count; i < count + kLanes32; ++i) {
+      corner[0][i] = corner[1][i] = corner[2][i] = 0;
+    }
+  }
+  void Load(const Triangle* triangles, const uint32_t* numbers, size_t count, const int32_t* xy) {
+    for (size_t i = 0; i < count; ++i) {
+      for (size_t k = 0; k < 3; ++k) {
+        std::memcpy(&corner[k][i], xy + 2 * size_t{triangles[numbers[i]][k]}, 8);
+      }
+    }
+    for (size_t i = count; i < count + kLanes32; ++i) {
+      corner[0][i] = corner[1][i] = corner[2][i] = 0;
+    }
+  }
+};
+
+// N triangles on the picture.
+struct Lanes {
+  VI x[3], y[3];
+  VI left, top, right, bottom;
+
+  Lanes(const CornerBlock& block, size_t at) {
+    const I32 d;
+    for (int k = 0; k < 3; ++k) {
+      hn::LoadInterleaved2(d, reinterpret_cast<const int32_t*>(&block.corner[k][at]), x[k], y[k]);
+    }
+    left = hn::Min(hn::Min(x[0], x[1]), x[2]);
+    top = hn::Min(hn::Min(y[0], y[1]), y[2]);
+    right = hn::Max(hn::Max(x[0], x[1]), x[2]);
+    bottom = hn::Max(hn::Max(y[0], y[1]), y[2]);
+  }
+};
+
+// One edge a -> b of a lane's triangle: value at (x, y) from the upper left corner of its box = A x
+// + B y + value, >= 0 inside; the top-left rule is in the value.
+struct LaneEdge {
+  VI a, b, value;
+
+  LaneEdge() = default;
+  HWY_INLINE LaneEdge(VI ax, VI ay, VI bx, VI by, VI ox, VI oy) {
+    const I32 d;
+    a = ay - by;
+    b = bx - ax;
+    const MI left = hn::Gt(a, hn::Zero(d));
+    const MI top = hn::And(hn::Eq(a, hn::Zero(d)), hn::Gt(b, hn::Zero(d)));
+    const VI bias = hn::IfThenZeroElse(hn::Or(left, top), hn::Set(d, -1));
+    value = a * (ox - ax) + (b * (oy - ay) + bias);
+  }
+  HWY_INLINE VI At(VI x, VI y) const { return (value + a * x) + b * y; }
+};
+
+// Appends hits.
+class Coverer {
+ public:
+  Coverer(const TileRect& tile, std::span<const SamplePlace> places, CoverageList* out)
+      : tile_(tile), places_(places), out_(out) {
+    const I32 d;
+    tile_left_ = hn::Set(d, tile.x * kFixedOne);
+    tile_top_ = hn::Set(d, tile.y * kFixedOne);
+    tile_right_ = hn::Set(d, tile.right() * kFixedOne);
+    tile_bottom_ = hn::Set(d, tile.bottom() * kFixedOne);
+  }
+
+  HWY_INLINE MI Touches(const Lanes& t) const {
+    return hn::And(hn::And(AtLeast(t.right, tile_left_), hn::Lt(t.left, tile_right_)),
+                   hn::And(AtLeast(t.bottom, tile_top_), hn::Lt(t.top, tile_bottom_)));
+  }
+
+  // Of lanes `active`: samples in the `across` by `down` pixels from the corner of the box on.
+  // numbers: of the triangles.
+  HWY_INLINE void Cover(const Lanes& t, MI active, V32 numbers, int32_t across, int32_t down) {
+    const I32 d;
+    const VI area = (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.x[2] - t.x[0]) * (t.y[1] - t.y[0]);
+    active = hn::And(active, hn::Ne(area, hn::Zero(d)));
+    if (hn::AllFalse(d, active)) return;
+    const MI turned = hn::Lt(area, hn::Zero(d));
+    const VI bx = hn::IfThenElse(turned, t.x[2], t.x[1]);
+    const VI by = hn::IfThenElse(turned, t.y[2], t.y[1]);
+    const VI cx = hn::IfThenElse(turned, t.x[1], t.x[2]);
+    const VI cy = hn::IfThenElse(turned, t.y[1], t.y[2]);
+    const LaneEdge edge[3] = {{t.x[0], t.y[0], bx, by, t.left, t.top},
+                              {bx, by, cx, cy, t.left, t.top},
+                              {cx, cy, t.x[0], t.y[0], t.left, t.top}};
+    const VI width = t.right - t.left, height = t.bottom - t.top;
+    const VI within = hn::Set(d, kFixedOne - 1);
+    const auto samples = static_cast<int32_t>(places_.size());
+    for (int32_t s = 0; s < samples; ++s) {
+      // The first place of the sample that is not left of, or above, the box.
+      const VI first_x = hn::And(hn::Set(d, places_[s].x) - t.left, within);
+      const VI first_y = hn::And(hn::Set(d, places_[s].y) - t.top, within);
+      for (int32_t j = 0; j < down; ++j) {
+        for (int32_t i = 0; i < across; ++i) {
+          const VI x = first_x + hn::Set(d, i * kFixedOne);
+          const VI y = first_y + hn::Set(d, j * kFixedOne);
+          const MI in_box = hn::And(active, hn::And(AtLeast(width, x), AtLeast(height, y)));
+          if (hn::AllFalse(d, in_box)) continue;
+          const VI all = hn::Or(hn::Or(edge[0].At(x, y), edge[1].At(x, y)), edge[2].At(x, y));
+          const MI covered = hn::And(in_box, hn::Gt(all, hn::Set(d, -1)));
+          if (hn::AllFalse(d, covered)) continue;
+          Append(covered, numbers, t.left + x, t.top + y, s);
+        }
+      }
+    }
+  }
+
+ private:
+  HWY_INLINE void Append(MI covered, V32 numbers, VI x, VI y, int32_t sample) {
+    const I32 d;
+    const D32 du;
+    covered = hn::And(covered, hn::And(hn::And(AtLeast(x, tile_left_), hn::Lt(x, tile_right_)),
+                                       hn::And(AtLeast(y, tile_top_), hn::Lt(y, tile_bottom_))));
+    const VI column = hn::ShiftRight<8>(x - tile_left_), row = hn::ShiftRight<8>(y - tile_top_);
+    const VI pixel = row * hn::Set(d, tile_.width) + column;
+    const VI index =
+        pixel * hn::Set(d, static_cast<int32_t>(places_.size())) + hn::Set(d, sample);
+    const M32 mask = hn::RebindMask(du, covered);
+    const Compactor front(mask);
+    const size_t at = out_->hits;
+    hn::StoreU(front(numbers), du, out_->triangle.data() + at);
+    hn::StoreU(front(Unsigned(index)), du, out_->sample.data() + at);
+    hn::StoreU(Signed(front(Unsigned(x))), d, out_->x.data() + at);
+    hn::StoreU(Signed(front(Unsigned(y))), d, out_->y.data() + at);
+    out_->hits = at + hn::CountTrue(du, mask);
+  }
+
+  TileRect tile_;
+  std::span<const SamplePlace> places_;
+  CoverageList* out_;
+  VI tile_left_, tile_top_, tile_right_, tile_bottom_;
+};
+
+HWY_INLINE void AppendNumbers(MI mask, V32 numbers, std::vector<uint32_t>* to, size_t* count) {
+  const D32 du;
+  const M32 lanes = hn::RebindMask(du, mask);
+  hn::StoreU(Compactor(lanes)(numbers), du, to->data() + *count);
+  *count += hn::CountTrue(du, lanes);
 }
 
-// ((r0 x + r1 y) + r2 z) + r3, as Row in view.h.
-template <class D, class V>
-HWY_INLINE V RowTimes(D d, const std::array<double, 4>& r, V x, V y, V z) {
-  const V sum = hn::Add(hn::Mul(hn::Set(d, r[0]), x), hn::Mul(hn::Set(d, r[1]), y));
-  return hn::Add(hn::Add(sum, hn::Mul(hn::Set(d, r[2]), z)), hn::Set(d, r[3]));
+void Cover(const Triangle* triangles, size_t count, const int32_t* xy, const TileRect& tile,
+           std::span<const SamplePlace> places, CoverageList* out) {
+  const I32 d;
+  const D32 du;
+  Coverer coverer(tile, places, out);
+  const VI one = hn::Set(d, kFixedOne), two = hn::Set(d, 2 * kFixedOne);
+  const VI clip = hn::Set(d, kOutOfGuard);
+  CornerBlock block;
+  block.Load(triangles, count, xy);
+  size_t wides = 0;
+  out->hits = 0;
+  out->larges = 0;
+  for (size_t first = 0; first < count; first += kLanes32) {
+    const Lanes t(block, first);
+    const V32 numbers = hn::Iota(du, static_cast<uint32_t>(first));
+    const MI valid = hn::RebindMask(d, hn::FirstN(du, count - first));
+    const MI touches = hn::And(valid, coverer.Touches(t));
+    // Differences of clipped corners may wrap: they are asked for by name.
+    const MI clipped = hn::And(valid, hn::Eq(t.right, clip));
+    const VI width = t.right - t.left, height = t.bottom - t.top;
+    const MI small = hn::And(hn::Lt(width, one), hn::Lt(height, one));
+    const MI medium = hn::And(hn::Lt(width, two), hn::Lt(height, two));
+    const MI is_large = hn::Or(clipped, hn::AndNot(medium, touches));
+    const MI is_wide = hn::And(touches, hn::AndNot(small, medium));
+    if (!hn::AllFalse(d, is_large)) AppendNumbers(is_large, numbers, &out->large, &out->larges);
+    if (!hn::AllFalse(d, is_wide)) AppendNumbers(is_wide, numbers, &out->wide, &wides);
+    coverer.Cover(t, hn::And(touches, small), numbers, 1, 1);
+  }
+  if (wides == 0) return;
+  block.Load(triangles, out->wide.data(), wides, xy);
+  for (size_t first = 0; first < wides; first += kLanes32) {
+    const V32 numbers = hn::LoadU(du, out->wide.data() + first);
+    const MI valid = hn::RebindMask(d, hn::FirstN(du, wides - first));
+    coverer.Cover(Lanes(block, first), valid, numbers, 2, 2);
+  }
+}
+
+HWY_INLINE VI GatherSigned(const int32_t* from, V32 index) {
+  return Signed(Gather(reinterpret_cast<const uint32_t*>(from), index));
+}
+
+// Which corner leads is said by two masks; neither: the first.
+HWY_INLINE V32 Turned(const V32* by, M32 second, M32 third) {
+  return hn::IfThenElse(third, by[2], hn::IfThenElse(second, by[1], by[0]));
+}
+
+HWY_INLINE VF Promoted(const int32_t* from) {
+  return hn::PromoteTo(DF(), hn::Load(hn::RebindToSigned<DN>(), from));
+}
+
+// Corners of N triangles, turned so that the one with the smallest (x, y) leads, as differences.
+struct Led {
+  static constexpr size_t kSize = kLanes32;
+  HWY_ALIGN uint32_t vertex[3][kSize];
+  HWY_ALIGN int32_t bx[kSize], by[kSize], cx[kSize], cy[kSize], dx[kSize], dy[kSize];
+
+  // Hits at..; lanes from `count` on: those of triangle 0.
+  HWY_INLINE Led(const Triangle* triangles, const int32_t* xy, const CoverageList& hits, size_t at,
+                 size_t count) {
+    const D32 du;
+    const I32 d;
+    const V32 number =
+        hn::IfThenElseZero(hn::FirstN(du, count), hn::LoadU(du, hits.triangle.data() + at));
+    const V32 place = number + number + number;
+    V32 v[3], x[3], y[3];
+    for (int k = 0; k < 3; ++k) {
+      v[k] = Gather(triangles->data() + k, place);
+      const V32 pair = v[k] + v[k];
+      x[k] = Unsigned(GatherSigned(xy, pair));
+      y[k] = Unsigned(GatherSigned(xy + 1, pair));
+    }
+    const auto before = [&](int i, int j) HWY_ATTR {
+      const VI xi = Signed(x[i]), xj = Signed(x[j]);
+      const MI less = hn::Or(hn::Lt(xi, xj), hn::And(hn::Eq(xi, xj), hn::Lt(Signed(y[i]), Signed(y[j]))));
+      return hn::RebindMask(du, less);
+    };
+    const M32 ab = before(0, 1), ac = before(0, 2), bc = before(1, 2);
+    const M32 first = hn::And(ab, ac);
+    const M32 second = hn::AndNot(ab, bc);
+    const M32 third = hn::Not(hn::Or(first, second));
+    VI cornerx[3], cornery[3];
+    for (int k = 0; k < 3; ++k) {
+      const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+      const V32 vs[3] = {v[k], v[k1], v[k2]}, xs[3] = {x[k], x[k1], x[k2]},
+                ys[3] = {y[k], y[k1], y[k2]};
+      hn::Store(Turned(vs, second, third), du, vertex[k]);
+      cornerx[k] = Signed(Turned(xs, second, third));
+      cornery[k] = Signed(Turned(ys, second, third));
+    }
+    hn::Store(cornerx[1] - cornerx[0], d, bx);
+    hn::Store(cornery[1] - cornery[0], d, by);
+    hn::Store(cornerx[2] - cornerx[0], d, cx);
+    hn::Store(cornery[2] - cornery[0], d, cy);
+    hn::Store(hn::LoadU(d, hits.x.data() + at) - cornerx[0], d, dx);
+    hn::Store(hn::LoadU(d, hits.y.data() + at) - cornery[0], d, dy);
+  }
+};
+
+void Depths(const Triangle* triangles, const int32_t* xy, const double* depths,
+            CoverageList* hits) {
+  const DF d;
+  const DN dn;
+  constexpr size_t kLanes = hn::MaxLanes(DF());
+  for (size_t at = 0; at < hits->hits; at += kLanes32) {
+    const Led led(triangles, xy, *hits, at, hits->hits - at);
+    for (size_t i = 0; i < kLanes32; i += kLanes) {
+      VF corner[3];
+      for (int k = 0; k < 3; ++k) corner[k] = Gather(depths, hn::Load(dn, led.vertex[k] + i));
+      const VF bx = Promoted(led.bx + i), by = Promoted(led.by + i);
+      const VF cx = Promoted(led.cx + i), cy = Promoted(led.cy + i);
+      const VF inverse = hn::Set(d, 1.0) / (bx * cy - cx * by);
+      const VF db = corner[1] - corner[0], dc = corner[2] - corner[0];
+      const VF along_x = (db * cy - dc * by) * inverse;
+      const VF along_y = (dc * bx - db * cx) * inverse;
+      VF depth = (corner[0] + along_x * Promoted(led.dx + i)) + along_y * Promoted(led.dy + i);
+      const auto smaller = [](VF a, VF b) HWY_ATTR { return hn::IfThenElse(hn::Lt(b, a), b, a); };
+      const auto larger = [](VF a, VF b) HWY_ATTR { return hn::IfThenElse(hn::Lt(a, b), b, a); };
+      depth = larger(depth, smaller(smaller(corner[0], corner[1]), corner[2]));
+      depth = smaller(depth, larger(larger(corner[0], corner[1]), corner[2]));
+      hn::StoreU(depth, d, hits->depth.data() + at + i);
+    }
+  }
 }
 
 void Project(const Projection& to, const StreamVertex* HWY_RESTRICT vertices, size_t count,
              int32_t* HWY_RESTRICT xy, double* HWY_RESTRICT depth) {
-  const F64 d;
-  const hn::Rebind<int32_t, F64> di;
-  const size_t lanes = hn::Lanes(d);
-  HWY_ALIGN double px[HWY_MAX_BYTES / 8], py[HWY_MAX_BYTES / 8], pz[HWY_MAX_BYTES / 8];
-  HWY_ALIGN int32_t fx[HWY_MAX_BYTES / 4], fy[HWY_MAX_BYTES / 4];
-  const auto near = hn::Set(d, to.near);
-  const auto guard = hn::Set(d, static_cast<double>(kFixedGuard));
-  const auto one = hn::Set(d, 1.0);
-  for (size_t first = 0; first < count; first += lanes) {
-    const size_t n = std::min(lanes, count - first);
-    for (size_t i = 0; i < lanes; ++i) {
-      const Vec3& p = vertices[first + std::min(i, n - 1)].position;
-      px[i] = p.x;
-      py[i] = p.y;
-      pz[i] = p.z;
+  const DF d;
+  const hn::Rebind<int32_t, DF> di;
+  constexpr size_t kLanes = hn::MaxLanes(DF());
+  const VF near = hn::Set(d, to.near), one = hn::Set(d, 1.0), zero = hn::Zero(d);
+  const VF guard = hn::Set(d, static_cast<double>(kFixedGuard));
+  HWY_ALIGN uint32_t numbers[kLanes];
+  const auto row = [&](const std::array<double, 4>& r, const Columns& c) HWY_ATTR {
+    const VF sum = hn::Set(d, r[0]) * c.v[0] + hn::Set(d, r[1]) * c.v[1];
+    return (sum + hn::Set(d, r[2]) * c.v[2]) + hn::Set(d, r[3]);
+  };
+  // view.cpp's ToFixed: floor(v + 1/2); inside the guard.
+  const auto fixed = [&](VF v) HWY_ATTR {
+    return hn::DemoteTo(di, hn::Floor(v + hn::Set(d, .5)));
+  };
+  for (size_t first = 0; first < count; first += kLanes) {
+    for (size_t i = 0; i < kLanes; ++i) {
+      numbers[i] = static_cast<uint32_t>(std::min(first + i, count - 1));
     }
-    const auto x = hn::Load(d, px), y = hn::Load(d, py), z = hn::Load(d, pz);
-    const auto cz = RowTimes(d, to.z, x, y, z);
-    auto sx = RowTimes(d, to.x, x, y, z);
-    auto sy = RowTimes(d, to.y, x, y, z);
-    auto nearness = hn::Neg(cz);
+    const Columns c = LoadVertices(vertices, numbers);
+    const VF cz = row(to.z, c);
+    VF x = row(to.x, c), y = row(to.y, c);
+    VF nearness = hn::Neg(cz);
     if (!to.orthographic) {
-      nearness = hn::Div(one, cz);
-      sx = hn::Mul(sx, nearness);
-      sy = hn::Mul(sy, nearness);
+      nearness = one / cz;
+      x = x * nearness;
+      y = y * nearness;
     }
-    const auto inside =
-        hn::And(hn::And(hn::Ge(cz, near), hn::Lt(hn::Abs(sx), guard)), hn::Lt(hn::Abs(sy), guard));
-    const auto zero = hn::Zero(d);
-    hn::Store(Fixed(d, hn::IfThenElse(inside, sx, zero)), di, fx);
-    hn::Store(Fixed(d, hn::IfThenElse(inside, sy, zero)), di, fy);
-    hn::StoreU(nearness, d, depth + first);  // padded: see ProjectVertices
-    for (size_t i = 0; i < lanes; ++i) {
+    const MF inside =
+        hn::And(hn::Ge(cz, near), hn::And(hn::Lt(hn::Abs(x), guard), hn::Lt(hn::Abs(y), guard)));
+    auto px = fixed(hn::IfThenElse(inside, x, zero));
+    const auto py = fixed(hn::IfThenElse(inside, y, zero));
+    hn::StoreU(nearness, d, depth + first);
+    HWY_ALIGN int32_t fx[kLanes], fy[kLanes];
+    hn::Store(px, di, fx);
+    hn::Store(py, di, fy);
+    for (size_t i = 0; i < kLanes; ++i) {
       xy[2 * (first + i)] = fx[i];
       xy[2 * (first + i) + 1] = fy[i];
     }
-    if (!hn::AllTrue(d, inside)) {
-      uint8_t bits[8] = {};
-      hn::StoreMaskBits(d, inside, bits);
-      for (size_t i = 0; i < lanes; ++i) {
-        if (((bits[i / 8] >> (i % 8)) & 1) == 0) xy[2 * (first + i)] = kOutOfGuard;
-      }
+    if (hn::AllTrue(d, inside)) continue;
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, inside, bits);
+    for (size_t i = 0; i < kLanes; ++i) {
+      if ((bits[0] >> i & 1) == 0) xy[2 * (first + i)] = kOutOfGuard;
     }
   }
-}
-
-// One edge a -> b of a lane's triangle: value at (x, y) = A x + B y + value, >= 0 inside; the
-// top-left rule is in the value.
-template <class V>
-struct LaneEdge {
-  V a, b, value;
-};
-
-template <class V>
-HWY_INLINE LaneEdge<V> MakeEdge(I32 d, V ax, V ay, V bx, V by, V ox, V oy) {
-  const V a = hn::Sub(ay, by);
-  const V b = hn::Sub(bx, ax);
-  const V zero = hn::Zero(d);
-  const auto left = hn::Gt(a, zero);
-  const auto top = hn::And(hn::Eq(a, zero), hn::Gt(b, zero));
-  const V bias = hn::IfThenZeroElse(hn::Or(left, top), hn::Set(d, -1));
-  const V value = hn::Add(hn::Mul(a, hn::Sub(ox, ax)), hn::Add(hn::Mul(b, hn::Sub(oy, ay)), bias));
-  return {a, b, value};
-}
-
-void Cover(const Triangle* HWY_RESTRICT triangles, size_t count, const int32_t* HWY_RESTRICT xy,
-           const TileRect& tile, const SamplePlace* places, int samples, CoverageList* out) {
-  const I32 d;
-  const hn::RebindToUnsigned<I32> du;
-  const size_t lanes = hn::Lanes(d);
-  using V = hn::Vec<I32>;
-  HWY_ALIGN int64_t corner[3][HWY_MAX_BYTES / 4];
-  const V first_x = hn::Set(d, tile.x), last_x = hn::Set(d, tile.right() - 1);
-  const V first_y = hn::Set(d, tile.y), last_y = hn::Set(d, tile.bottom() - 1);
-  const V two = hn::Set(d, 2);
-  const V before_last_x = hn::Set(d, tile.right() - 2),
-          before_last_y = hn::Set(d, tile.bottom() - 2);
-  const int group = samples == 1 ? 1 : 4;
-  // Bits of the mask that belong to the left and right column, upper and lower row.
-  const int32_t pixel_bits = group == 1 ? 1 : 15;
-  const int32_t left_bits = pixel_bits | (pixel_bits << (2 * group));
-  const int32_t upper_bits = pixel_bits | (pixel_bits << group);
-  size_t hits = 0, larges = 0;
-
-  for (size_t first = 0; first < count; first += lanes) {
-    const size_t n = std::min(lanes, count - first);
-    for (size_t i = 0; i < n; ++i) {
-      const Triangle& t = triangles[first + i];
-      std::memcpy(&corner[0][i], xy + 2 * size_t{t[0]}, 8);
-      std::memcpy(&corner[1][i], xy + 2 * size_t{t[1]}, 8);
-      std::memcpy(&corner[2][i], xy + 2 * size_t{t[2]}, 8);
-    }
-    for (size_t i = n; i < lanes; ++i) corner[0][i] = corner[1][i] = corner[2][i] = 0;
-    V x0, y0, x1, y1, x2, y2;
-    hn::LoadInterleaved2(d, reinterpret_cast<const int32_t*>(corner[0]), x0, y0);
-    hn::LoadInterleaved2(d, reinterpret_cast<const int32_t*>(corner[1]), x1, y1);
-    hn::LoadInterleaved2(d, reinterpret_cast<const int32_t*>(corner[2]), x2, y2);
-
-    const V px = hn::ShiftRight<8>(hn::Min(hn::Min(x0, x1), x2));
-    const V py = hn::ShiftRight<8>(hn::Min(hn::Min(y0, y1), y2));
-    const V qx = hn::ShiftRight<8>(hn::Max(hn::Max(x0, x1), x2));
-    const V qy = hn::ShiftRight<8>(hn::Max(hn::Max(y0, y1), y2));
-    const auto misses = hn::Or(hn::Or(hn::Lt(qx, first_x), hn::Gt(px, last_x)),
-                               hn::Or(hn::Lt(qy, first_y), hn::Gt(py, last_y)));
-    const auto touches = hn::Not(misses);
-    const auto small = hn::And(hn::Lt(hn::Sub(qx, px), two), hn::Lt(hn::Sub(qy, py), two));
-    const V area = hn::Sub(hn::Mul(hn::Sub(x1, x0), hn::Sub(y2, y0)),
-                           hn::Mul(hn::Sub(x2, x0), hn::Sub(y1, y0)));
-    const auto clipped = hn::Eq(qx, hn::Set(d, kOutOfGuard >> 8));
-    // Wrapped areas of large triangles are of no account here.
-    const auto solid = hn::Ne(area, hn::Zero(d));
-    const auto is_large = hn::Or(clipped, hn::AndNot(small, touches));
-    const auto active = hn::And(hn::And(touches, small), solid);
-    const auto number = hn::Iota(du, static_cast<uint32_t>(first));
-    if (!hn::AllFalse(d, is_large)) {
-      larges +=
-          hn::CompressStore(number, hn::RebindMask(du, is_large), du, out->large.data() + larges);
-    }
-    if (hn::AllFalse(d, active)) continue;
-
-    const auto turned = hn::Lt(area, hn::Zero(d));
-    const V bx = hn::IfThenElse(turned, x2, x1), by = hn::IfThenElse(turned, y2, y1);
-    const V cx = hn::IfThenElse(turned, x1, x2), cy = hn::IfThenElse(turned, y1, y2);
-    const V ox = hn::ShiftLeft<8>(px), oy = hn::ShiftLeft<8>(py);
-    const LaneEdge<V> e0 = MakeEdge(d, x0, y0, bx, by, ox, oy);
-    const LaneEdge<V> e1 = MakeEdge(d, bx, by, cx, cy, ox, oy);
-    const LaneEdge<V> e2 = MakeEdge(d, cx, cy, x0, y0, ox, oy);
-    const V right0 = hn::ShiftLeft<8>(e0.a), right1 = hn::ShiftLeft<8>(e1.a),
-            right2 = hn::ShiftLeft<8>(e2.a);
-    const V down0 = hn::ShiftLeft<8>(e0.b), down1 = hn::ShiftLeft<8>(e1.b),
-            down2 = hn::ShiftLeft<8>(e2.b);
-    const V no_left = hn::IfThenElseZero(hn::Lt(px, first_x), hn::Set(d, left_bits));
-    const V no_right =
-        hn::IfThenElseZero(hn::Gt(px, before_last_x), hn::Set(d, left_bits << group));
-    const V no_upper = hn::IfThenElseZero(hn::Lt(py, first_y), hn::Set(d, upper_bits));
-    const V no_lower =
-        hn::IfThenElseZero(hn::Gt(py, before_last_y), hn::Set(d, upper_bits << (2 * group)));
-    const V outside = hn::Or(hn::Or(no_left, no_right), hn::Or(no_upper, no_lower));
-
-    for (int base = 0; base < samples; base += group) {
-      V mask = hn::Zero(d);
-      for (int i = 0; i < group; ++i) {
-        const V dx = hn::Set(d, places[base + i].x), dy = hn::Set(d, places[base + i].y);
-        const V s0 = hn::Add(e0.value, hn::Add(hn::Mul(e0.a, dx), hn::Mul(e0.b, dy)));
-        const V s1 = hn::Add(e1.value, hn::Add(hn::Mul(e1.a, dx), hn::Mul(e1.b, dy)));
-        const V s2 = hn::Add(e2.value, hn::Add(hn::Mul(e2.a, dx), hn::Mul(e2.b, dy)));
-        const auto covered = [&](V v0, V v1, V v2, int bit) HWY_ATTR {
-          const V negative = hn::ShiftRight<31>(hn::Or(hn::Or(v0, v1), v2));
-          mask = hn::Or(mask, hn::AndNot(negative, hn::Set(d, 1 << bit)));
-        };
-        covered(s0, s1, s2, i);
-        covered(hn::Add(s0, right0), hn::Add(s1, right1), hn::Add(s2, right2), group + i);
-        const V l0 = hn::Add(s0, down0), l1 = hn::Add(s1, down1), l2 = hn::Add(s2, down2);
-        covered(l0, l1, l2, 2 * group + i);
-        covered(hn::Add(l0, right0), hn::Add(l1, right1), hn::Add(l2, right2), 3 * group + i);
-      }
-      mask = hn::AndNot(outside, mask);
-      const auto hit = hn::And(active, hn::Ne(mask, hn::Zero(d)));
-      if (hn::AllFalse(d, hit)) continue;
-      const auto hit_u = hn::RebindMask(du, hit);
-      const V marked = hn::Or(mask, hn::Set(d, (base / 4) << 16));
-      hn::CompressStore(number, hit_u, du, out->triangle.data() + hits);
-      hn::CompressStore(hn::BitCast(du, marked), hit_u, du, out->mask.data() + hits);
-      hn::CompressStore(px, hit, d, out->x.data() + hits);
-      hits += hn::CompressStore(py, hit, d, out->y.data() + hits);
-    }
-  }
-  out->hits = hits;
-  out->larges = larges;
 }
 
 }  // namespace
@@ -228,6 +371,7 @@ void Grow(std::vector<T>* v, size_t size) {
 
 HWY_EXPORT(Project);
 HWY_EXPORT(Cover);
+HWY_EXPORT(Depths);
 
 }  // namespace
 
@@ -235,22 +379,30 @@ void ProjectVertices(const Projection& to, std::span<const StreamVertex> vertice
                      ProjectedBatch* out) {
   Grow(&out->xy, 2 * (vertices.size() + kPadding));
   Grow(&out->depth, vertices.size() + kPadding);
+  if (vertices.empty()) return;
   HWY_DYNAMIC_DISPATCH(Project)
   (to, vertices.data(), vertices.size(), out->xy.data(), out->depth.data());
 }
 
 void FindCoverage(std::span<const Triangle> triangles, const ProjectedBatch& batch,
                   const TileRect& tile, std::span<const SamplePlace> places, CoverageList* out) {
-  const size_t groups = places.size() == 16 ? 4 : 1;
-  const size_t most = triangles.size() * groups + kPadding;
+  FJORD_CHECK(triangles.size() <= kCoverageBlock, triangles.size());
+  // A wide triangle has four places a sample to cover.
+  const size_t most = kCoverageBlock * places.size() * 4 + kPadding;
   Grow(&out->triangle, most);
-  Grow(&out->mask, most);
+  Grow(&out->sample, most);
   Grow(&out->x, most);
   Grow(&out->y, most);
-  Grow(&out->large, triangles.size() + kPadding);
+  Grow(&out->depth, most);
+  Grow(&out->large, kCoverageBlock + kPadding);
+  Grow(&out->wide, kCoverageBlock + kPadding);
   HWY_DYNAMIC_DISPATCH(Cover)
-  (triangles.data(), triangles.size(), batch.xy.data(), tile, places.data(),
-   static_cast<int>(places.size()), out);
+  (triangles.data(), triangles.size(), batch.xy.data(), tile, places, out);
+}
+
+void FindDepths(std::span<const Triangle> triangles, const ProjectedBatch& batch,
+                CoverageList* hits) {
+  HWY_DYNAMIC_DISPATCH(Depths)(triangles.data(), batch.xy.data(), batch.depth.data(), hits);
 }
 
 }  // namespace fjord

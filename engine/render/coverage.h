@@ -1,5 +1,9 @@
-// The SIMD half of the rasteriser: projects a batch of vertices and finds which samples its
-// micro-triangles cover, many triangles in lock-step. The same bits at every SIMD level.
+// The SIMD half of the rasteriser: projects a batch of vertices, finds which samples its
+// micro-triangles cover and how near they are there, many triangles in lock-step. The same bits at
+// every SIMD level.
+//
+// A sample's places repeat every pixel, so a triangle less than a pixel wide and high can cover the
+// i-th sample of one pixel at most: there is one place a sample to look at, not one a pixel.
 #pragma once
 
 #include <cstddef>
@@ -28,19 +32,32 @@ struct ProjectedBatch {
 void ProjectVertices(const Projection& to, std::span<const StreamVertex> vertices,
                      ProjectedBatch* out);
 
-// What micro-triangles cover. Hit i: `triangle` covers samples of the 2x2 pixels whose left upper
-// one is (x, y). With n = min(4, samples): bit (2 * row + column) * n + k of the mask is sample 4 *
-// group + k of that pixel; group is mask >> 16.
+// What micro-triangles cover. Hit i: triangles[triangle] covers the sample at (x, y), which is entry
+// `sample` of the tile buffer, at `depth`.
 struct CoverageList {
-  std::vector<uint32_t> triangle, mask;
+  std::vector<uint32_t> triangle, sample;
   std::vector<int32_t> x, y;
+  std::vector<double> depth;
   size_t hits = 0;
-  std::vector<uint32_t> large;  // triangles in reach of the tile that are not that small
+  std::vector<uint32_t> large;  // triangles in reach of the tile of two pixels or more
   size_t larges = 0;
+  std::vector<uint32_t> wide;  // of one to two pixels; while covering
+
+  size_t Bytes() const {
+    return triangle.capacity() * (4 * sizeof(uint32_t) + sizeof(double)) +
+           (large.capacity() + wide.capacity()) * sizeof(uint32_t);
+  }
 };
+
+// How many triangles FindCoverage takes at a time.
+inline constexpr size_t kCoverageBlock = 256;
 
 // Triangles of zero area, and those that cannot touch the tile, are dropped.
 void FindCoverage(std::span<const Triangle> triangles, const ProjectedBatch& batch,
                   const TileRect& tile, std::span<const SamplePlace> places, CoverageList* out);
+
+// Fills depth (triangle_setup.h's DepthPlane, bit for bit).
+void FindDepths(std::span<const Triangle> triangles, const ProjectedBatch& batch,
+                CoverageList* hits);
 
 }  // namespace fjord

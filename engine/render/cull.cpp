@@ -51,6 +51,21 @@ Span TilesOf(const Range& range, const std::vector<int32_t>& edges) {
           std::min(static_cast<int32_t>(last), count - 1)};
 }
 
+// Lets the rows of low..high into `busy`.
+void Occupy(const Range& range, const TileRect& tile, TileRect* busy) {
+  const double top = std::max(range.low, double{1} * tile.y);
+  const double bottom = std::min(range.high, double{1} * tile.bottom());
+  const int32_t first = std::clamp(FloorToInt32(top), tile.y, tile.bottom() - 1);
+  const int32_t last = std::clamp(FloorToInt32(bottom), first, tile.bottom() - 1);
+  if (busy->height == 0) {
+    *busy = {tile.x, first, tile.width, last - first + 1};
+    return;
+  }
+  const int32_t end = std::max(busy->bottom(), last + 1);
+  busy->y = std::min(busy->y, first);
+  busy->height = end - busy->y;
+}
+
 std::vector<int32_t> Edges(int32_t from, int32_t to, int32_t step) {
   std::vector<int32_t> edges = {from};
   for (int32_t next = (from / step + 1) * step; next < to; next += step) edges.push_back(next);
@@ -84,23 +99,23 @@ void TileFrustum::Add(const std::array<double, 4>& row) {
   const double length = RowLength(row);
   if (!(length > 0)) return;  // a flattened object: this side says nothing
   const double scale = 1 / length;
-  planes_[count_++] = {row[0] * scale, row[1] * scale, row[2] * scale, row[3] * scale};
+  planes_[count_++] = {Vec3(row[0], row[1], row[2]) * scale, row[3] * scale};
 }
 
-bool TileFrustum::MayTouch(const Vec3& a, const Vec3& b, const Vec3& c, double reach) const {
+bool TileFrustum::MayTouch(const Vec3& a, const Vec3& b, const Vec3& c,
+                           const StreamReach& reach) const {
   for (int i = 0; i < count_; ++i) {
-    const Plane& p = planes_[i];
-    const double da = p.x * a.x + p.y * a.y + p.z * a.z;
-    const double db = p.x * b.x + p.y * b.y + p.z * b.z;
-    const double dc = p.x * c.x + p.y * c.y + p.z * c.z;
-    if (std::max(std::max(da, db), dc) + p.distance < -reach) return false;
+    const Vec3& n = planes_[i].normal;
+    const double nearest = std::max(std::max(glm::dot(n, a), glm::dot(n, b)), glm::dot(n, c));
+    if (nearest + planes_[i].distance < -reach.Towards(n)) return false;
   }
   return true;
 }
 
-TileLists BinRoots(const TileRect& region, int32_t tile_size, std::span<const CullObject> objects) {
-  const std::vector<int32_t> columns = Edges(region.x, region.right(), tile_size);
-  const std::vector<int32_t> rows = Edges(region.y, region.bottom(), tile_size);
+TileLists BinRoots(const TileRect& region, int32_t tile_width, int32_t tile_height,
+                   std::span<const CullObject> objects) {
+  const std::vector<int32_t> columns = Edges(region.x, region.right(), tile_width);
+  const std::vector<int32_t> rows = Edges(region.y, region.bottom(), tile_height);
   TileLists lists;
   for (size_t r = 0; r + 1 < rows.size(); ++r) {
     for (size_t c = 0; c + 1 < columns.size(); ++c) {
@@ -108,9 +123,11 @@ TileLists BinRoots(const TileRect& region, int32_t tile_size, std::span<const Cu
           {columns[c], rows[r], columns[c + 1] - columns[c], rows[r + 1] - rows[r]});
     }
   }
+  lists.busy.assign(lists.tiles.size(), TileRect{});
   struct Touch {
     RootRef ref;
     Span across, down;
+    double distance;
   };
   std::vector<Touch> touches;
   std::vector<uint32_t> count(lists.tiles.size() + 1, 0);
@@ -118,19 +135,32 @@ TileLists BinRoots(const TileRect& region, int32_t tile_size, std::span<const Cu
   for (size_t o = 0; o < objects.size(); ++o) {
     const CullObject& object = objects[o];
     const double near_length = RowLength(object.to.z);
+    const size_t first_of_object = touches.size();
     for (size_t root = 0; root < object.prepared->RootCount(); ++root) {
       const Ball ball = object.prepared->Bound(root);
-      if (Row(object.to.z, ball.center) + near_length * ball.radius < object.to.near) continue;
+      const double distance = Row(object.to.z, ball.center);
+      if (distance + near_length * ball.radius < object.to.near) continue;
       Range range = BallRange(object.to, object.to.x, ball, object.margin);
       if (object.open_left) range.high = std::numeric_limits<double>::infinity();
+      const Range down_range = BallRange(object.to, object.to.y, ball, object.margin);
       const Span across = TilesOf(range, columns);
-      const Span down = TilesOf(BallRange(object.to, object.to.y, ball, object.margin), rows);
+      const Span down = TilesOf(down_range, rows);
       if (across.first > across.last || down.first > down.last) continue;
-      touches.push_back({{static_cast<uint32_t>(o), static_cast<uint32_t>(root)}, across, down});
+      touches.push_back(
+          {{static_cast<uint32_t>(o), static_cast<uint32_t>(root)}, across, down, distance});
       for (int32_t r = down.first; r <= down.last; ++r) {
-        for (int32_t c = across.first; c <= across.last; ++c) ++count[r * width + c + 1];
+        for (int32_t c = across.first; c <= across.last; ++c) {
+          const int32_t tile = r * width + c;
+          ++count[tile + 1];
+          Occupy(down_range, lists.tiles[tile], &lists.busy[tile]);
+        }
       }
     }
+    std::sort(touches.begin() + static_cast<std::ptrdiff_t>(first_of_object), touches.end(),
+              [](const Touch& a, const Touch& b) {
+                return a.distance != b.distance ? a.distance < b.distance
+                                                : a.ref.root < b.ref.root;
+              });
   }
   for (size_t i = 1; i < count.size(); ++i) count[i] += count[i - 1];
   lists.start = count;

@@ -22,12 +22,13 @@ class TileFrustum {
   TileFrustum(const Projection& to, const TileRect& rect, double margin, bool open_left);
 
   // May anything within `reach` of the triangle be seen in the tile?
-  bool MayTouch(const Vec3& a, const Vec3& b, const Vec3& c, double reach) const;
+  bool MayTouch(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) const;
 
  private:
-  // x n + distance >= 0 inside; n is a unit vector.
+  // normal . p + distance >= 0 inside.
   struct Plane {
-    double x = 0, y = 0, z = 0, distance = 0;
+    Vec3 normal{0};  // unit
+    double distance = 0;
   };
   void Add(const std::array<double, 4>& row);
 
@@ -41,9 +42,11 @@ struct RootRef {
 };
 
 // Tiles of a region, row by row, and what may touch each: roots of tile t are
-// refs[start[t]] .. refs[start[t + 1]], objects and roots ascending.
+// refs[start[t]] .. refs[start[t + 1]], objects ascending, near roots first: what they hide need not
+// be made.
 struct TileLists {
   std::vector<TileRect> tiles;
+  std::vector<TileRect> busy;  // the rows of a tile that anything may touch; height 0: none
   std::vector<uint32_t> start;
   std::vector<RootRef> refs;
 };
@@ -57,6 +60,7 @@ struct CullObject {
 };
 
 // Tiles lie on the grid of the whole picture, cut to `region`.
-TileLists BinRoots(const TileRect& region, int32_t tile_size, std::span<const CullObject> objects);
+TileLists BinRoots(const TileRect& region, int32_t tile_width, int32_t tile_height,
+                   std::span<const CullObject> objects);
 
 }  // namespace fjord

@@ -1,6 +1,7 @@
 #include "engine/render/film.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace fjord {
 namespace {
@@ -18,63 +19,112 @@ Rgb Film::Background(int32_t y) const {
   return top + (setup_->frame.background_bottom - top) * static_cast<float>(t);
 }
 
-void Film::StartTile(const TileBuffer& tile) {
-  const size_t samples = tile.places().size();
-  const size_t count = static_cast<size_t>(tile.rect().width) * samples;
-  // SIMD lanes may read past the end
-  constexpr size_t kPadding = 64;
+void Film::StartTile(const TileRect& tile) {
+  tile_ = tile;
+  places_ = SamplePlaces(setup_->frame.samples);
+  const size_t count = static_cast<size_t>(tile.width) * places_.size();
+  constexpr size_t kPadding = 64;  // SIMD lanes may read past the end
   owner_.resize(count + kPadding);
-  sample_x_.resize(count + kPadding);
-  sample_y_.resize(count + kPadding);
   for (auto& channel : row_) channel.resize(count + kPadding);
-  for (size_t at = 0; at < count; ++at) {
-    const int32_t pixel = tile.rect().x + static_cast<int32_t>(at / samples);
-    sample_x_[at] = static_cast<double>(pixel * kFixedOne + tile.places()[at % samples].x);
-    sample_y_[at] = static_cast<double>(tile.places()[at % samples].y);
+}
+
+// The plane's depth at sample `at` of the row.
+double Film::SeaDepth(int32_t at, int32_t y) const {
+  const auto samples = static_cast<int32_t>(places_.size());
+  const SamplePlace& place = places_[static_cast<size_t>(at % samples)];
+  return setup_->sea->At(static_cast<double>((tile_.x + at / samples) * kFixedOne + place.x),
+                         static_cast<double>(y * kFixedOne + place.y));
+}
+
+// What the samples of a row see where nothing was drawn. Rounded sums and products are monotone, so
+// the corners of the row's box speak for all that lies between.
+Film::Behind Film::BehindRow(int32_t y) const {
+  if (!setup_->sea) return Behind::kBackground;
+  const ViewPlane& sea = *setup_->sea;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const int32_t x : {tile_.x, tile_.right()}) {
+    for (const int32_t down : {0, 1}) {
+      const double at = sea.At(static_cast<double>(x * kFixedOne),
+                               static_cast<double>((y + down) * kFixedOne));
+      least = std::min(least, at);
+      most = std::max(most, at);
+    }
+  }
+  if (sea.Seen(least) && sea.Seen(most)) return Behind::kSea;
+  return most <= sea.least || least > sea.most ? Behind::kBackground : Behind::kBoth;
+}
+
+Film::Span Film::DrawnPixels(const TileBuffer& drawn, int32_t y) const {
+  const auto samples = static_cast<int32_t>(places_.size());
+  const uint32_t* hit = drawn.hit() + drawn.Index(tile_.x, y, 0);
+  int32_t first = 0, end = tile_.width * samples;
+  while (first < end && hit[first] == kNoHit) ++first;
+  while (end > first && hit[end - 1] == kNoHit) --end;
+  return {first / samples, (end + samples - 1) / samples};
+}
+
+// Pixels whose samples all see the same.
+void Film::FillPlain(int32_t y, Span pixels, Behind behind, float* out) {
+  const size_t samples = places_.size();
+  const float share = 1.f / static_cast<float>(samples);
+  const auto average = [&](float color) {
+    float sum = color;
+    for (size_t s = 1; s < samples; ++s) sum += color;
+    return sum * share;
+  };
+  if (behind == Behind::kBackground) {
+    for (int k = 0; k < 3; ++k) {
+      const float color = average(background_[k]);
+      for (int32_t x = pixels.first; x < pixels.end; ++x) out[3 * x + k] = color;
+    }
+    return;
+  }
+  sea_.Resize(static_cast<size_t>(pixels.end - pixels.first));
+  sea_.size = 0;
+  const auto per_pixel = static_cast<int32_t>(samples);
+  for (int32_t x = pixels.first; x < pixels.end; ++x) {
+    AddSeaPixel(x, y, SeaDepth(x * per_pixel, y));
+  }
+  ShadeSea();
+  for (int k = 0; k < 3; ++k) {
+    for (size_t i = 0; i < sea_.size; ++i) {
+      out[3 * static_cast<size_t>(sea_.place[i]) + static_cast<size_t>(k)] =
+          average(sea_.color[k][i]);
+    }
   }
 }
 
-// The sea is compared here, per sample, with what was drawn.
-Film::RowContent Film::FindOwners(TileBuffer* tile, int32_t y) {
-  const size_t row = tile->Index(tile->rect().x, y, 0);
-  const size_t count = static_cast<size_t>(tile->rect().width) * tile->places().size();
-  const uint32_t* hit = tile->hit() + row;
-  RowContent content;
-  size_t hits = 0;
-  for (size_t at = 0; at < count; ++at) {
-    const bool any = hit[at] != kNoHit;
-    owner_[at] = any ? tile->record(hit[at]).object : kBackground;
-    hits += any ? 1 : 0;
+// The sea was laid under everything else before it was drawn: where no hit is, it shows.
+void Film::FindOwners(int32_t y, Span samples, const TileBuffer* drawn) {
+  const uint32_t* hit =
+      drawn != nullptr ? drawn->hit() + drawn->Index(tile_.x, y, 0) : nullptr;
+  const bool one = setup_->objects.size() == 1;
+  for (int32_t at = samples.first; at < samples.end; ++at) {
+    uint32_t& owner = owner_[static_cast<size_t>(at)];
+    if (hit != nullptr && hit[at] != kNoHit) {
+      owner = one ? 0 : drawn->record(hit[at]).object;
+    } else {
+      owner = setup_->sea && setup_->sea->Seen(SeaDepth(at, y)) ? kSea : kBackground;
+    }
   }
-  content.objects = hits > 0;
-  content.background = hits < count;
-  if (setup_->sea) {
-    const size_t wet = FindSea(*setup_->sea, sample_x_.data(), sample_y_.data(),
-                               static_cast<double>(y * kFixedOne), count, kSea, tile->depth() + row,
-                               owner_.data());
-    content.sea = wet > 0;
-    if (wet == count) content.objects = content.background = false;
-  }
-  return content;
 }
 
-// All samples of the row that have the owner of `first`; they are marked as done.
-void Film::CollectHits(TileBuffer* tile, int32_t y, size_t first) {
-  const size_t row = tile->Index(tile->rect().x, y, 0);
-  const size_t count = static_cast<size_t>(tile->rect().width) * tile->places().size();
+// All samples that have the owner of `first`; they are marked as done.
+void Film::CollectHits(const TileBuffer& drawn, int32_t y, Span samples, int32_t first) {
+  const size_t row = drawn.Index(tile_.x, y, 0);
   const double top = static_cast<double>(y * kFixedOne);
-  const uint32_t owner = owner_[first];
-  hits_.Resize(count);
-  hit_of_.resize(count);
+  const uint32_t owner = owner_[static_cast<size_t>(first)];
+  hits_.Resize(static_cast<size_t>(samples.end - first));
+  hit_of_.resize(static_cast<size_t>(samples.end - first));
   size_t size = 0;
-  for (size_t at = first; at < count; ++at) {
+  for (size_t at = static_cast<size_t>(first); at < static_cast<size_t>(samples.end); ++at) {
     if (owner_[at] != owner) continue;
     owner_[at] = kDone;
     hits_.place[size] = static_cast<uint32_t>(at);
-    hits_.x[size] = sample_x_[at];
-    hits_.y[size] = top + sample_y_[at];
-    hits_.depth[size] = tile->depth()[row + at];
-    hit_of_[size] = tile->hit()[row + at];
+    hits_.x[size] = drawn.sample_x()[at];
+    hits_.y[size] = top + drawn.sample_y()[at];
+    hits_.depth[size] = drawn.depth()[row + at];
+    hit_of_[size] = drawn.hit()[row + at];
     ++size;
   }
   hits_.Resize(size);
@@ -149,82 +199,101 @@ void Film::ShadeObject(const TileBuffer& tile, uint32_t object) {
   Illuminate(setup.surface, setup_->lights, &hits_);
 }
 
+void Film::AddSeaPixel(int32_t x, int32_t y, double depth) {
+  constexpr int32_t kHalf = kFixedOne / 2;  // a pixel's middle
+  const size_t i = sea_.size++;
+  sea_.place[i] = static_cast<uint32_t>(x);
+  sea_.x[i] = static_cast<double>((tile_.x + x) * kFixedOne + kHalf);
+  sea_.y[i] = static_cast<double>(y * kFixedOne + kHalf);
+  sea_.depth[i] = depth;  // of its first sample: that of the middle may lie beyond the horizon
+}
+
 // Lit like a surface; towards the horizon more and more of the sky is thrown back, until sea and
 // background meet without a line. The sea is smooth, so one light a pixel does for all its samples.
-void Film::ShadeSea(TileBuffer* tile, int32_t y, const Rgb& background) {
-  const size_t samples = tile->places().size();
-  const size_t width = static_cast<size_t>(tile->rect().width);
-  const double* depth = tile->depth() + tile->Index(tile->rect().x, y, 0);
-  sea_.Resize(width);
-  size_t size = 0;
-  for (size_t x = 0; x < width; ++x) {
-    size_t s = 0;
-    while (s < samples && owner_[x * samples + s] != kSea) ++s;
-    if (s == samples) continue;
-    constexpr int32_t kHalf = kFixedOne / 2;  // a pixel's middle
-    const int32_t pixel = tile->rect().x + static_cast<int32_t>(x);
-    sea_.place[size] = static_cast<uint32_t>(x);
-    sea_.x[size] = static_cast<double>(pixel * kFixedOne + kHalf);
-    sea_.y[size] = static_cast<double>(y * kFixedOne + kHalf);
-    sea_.depth[size] = depth[x * samples + s];  // that of the middle may lie beyond the horizon
-    ++size;
-  }
-  sea_.Resize(size);
+void Film::ShadeSea() {
   for (int k = 0; k < 3; ++k) {
-    std::fill_n(sea_.normal[k].begin(), size, k == 2 ? 1.f : 0.f);
-    std::fill_n(sea_.color[k].begin(), size, setup_->frame.sea->color[k]);
+    std::fill_n(sea_.normal[k].begin(), sea_.size, k == 2 ? 1.f : 0.f);
+    std::fill_n(sea_.color[k].begin(), sea_.size, setup_->frame.sea->color[k]);
   }
   LocateHits(setup_->sea_geometry, &sea_);
   Illuminate(setup_->sea_surface, setup_->lights, &sea_);
-  ReflectSky(background, setup_->frame.background_top, &sea_);
-  for (size_t i = 0; i < size; ++i) {
-    const size_t first = sea_.place[i] * samples;
-    for (size_t at = first; at < first + samples; ++at) {
-      if (owner_[at] != kSea) continue;
-      for (int k = 0; k < 3; ++k) row_[k][at] = sea_.color[k][i];
+  ReflectSky(background_, setup_->frame.background_top, &sea_);
+}
+
+// Pixels of which each sample may see something else.
+void Film::FillSamples(int32_t y, Span pixels, const TileBuffer* drawn, float* out) {
+  const auto per_pixel = static_cast<int32_t>(places_.size());
+  const Span samples = {pixels.first * per_pixel, pixels.end * per_pixel};
+  FindOwners(y, samples, drawn);
+  sea_.Resize(static_cast<size_t>(pixels.end - pixels.first));
+  sea_.size = 0;
+  for (int32_t x = pixels.first; x < pixels.end; ++x) {
+    for (int32_t at = x * per_pixel; at < (x + 1) * per_pixel; ++at) {
+      if (owner_[static_cast<size_t>(at)] != kSea) continue;
+      AddSeaPixel(x, y, SeaDepth(at, y));
+      break;
+    }
+  }
+  if (sea_.size > 0) ShadeSea();
+  size_t sea = 0;
+  for (int32_t at = samples.first; at < samples.end; ++at) {
+    const uint32_t owner = owner_[static_cast<size_t>(at)];
+    if (owner == kBackground) {
+      for (int k = 0; k < 3; ++k) row_[k][static_cast<size_t>(at)] = background_[k];
+    } else if (owner == kSea) {
+      while (sea_.place[sea] != static_cast<uint32_t>(at / per_pixel)) ++sea;
+      for (int k = 0; k < 3; ++k) row_[k][static_cast<size_t>(at)] = sea_.color[k][sea];
+    }
+  }
+  for (int32_t at = samples.first; drawn != nullptr && at < samples.end; ++at) {
+    const uint32_t owner = owner_[static_cast<size_t>(at)];
+    if (owner >= kDone) continue;
+    CollectHits(*drawn, y, samples, at);
+    ShadeObject(*drawn, owner);
+    for (int k = 0; k < 3; ++k) {
+      for (size_t i = 0; i < hits_.size; ++i) row_[k][hits_.place[i]] = hits_.color[k][i];
+    }
+  }
+  const float share = 1.f / static_cast<float>(per_pixel);
+  for (int k = 0; k < 3; ++k) {
+    const float* from = row_[k].data() + samples.first;
+    for (int32_t x = pixels.first; x < pixels.end; ++x, from += per_pixel) {
+      float sum = from[0];
+      for (int32_t s = 1; s < per_pixel; ++s) sum += from[s];
+      out[3 * x + k] = sum * share;
     }
   }
 }
 
-void Film::Develop(const FrameSetup& setup, TileBuffer* tile, std::span<float> rgb) {
+void Film::DevelopRow(int32_t y, const TileBuffer* drawn, float* out) {
+  background_ = Background(y);
+  const Behind behind = BehindRow(y);
+  Span mixed = {0, 0};
+  if (behind == Behind::kBoth) {
+    mixed = {0, tile_.width};
+  } else if (drawn != nullptr) {
+    mixed = DrawnPixels(*drawn, y);
+  }
+  if (mixed.first >= mixed.end) mixed = {0, 0};
+  if (mixed.first > 0) FillPlain(y, {0, mixed.first}, behind, out);
+  if (mixed.first < mixed.end) FillSamples(y, mixed, drawn, out);
+  if (mixed.end < tile_.width) FillPlain(y, {mixed.end, tile_.width}, behind, out);
+}
+
+void Film::Develop(const FrameSetup& setup, const TileRect& tile, const TileBuffer& drawn,
+                   std::span<float> rgb) {
   setup_ = &setup;
-  const TileRect& rect = tile->rect();
-  const size_t width = static_cast<size_t>(rect.width);
-  const size_t samples = tile->places().size();
-  const size_t count = width * samples;
-  StartTile(*tile);
-  const float share = 1.f / static_cast<float>(samples);
-  for (int32_t y = rect.y; y < rect.bottom(); ++y) {
-    const Rgb background = Background(y);
-    const RowContent content = FindOwners(tile, y);
-    if (content.background) {
-      for (int k = 0; k < 3; ++k) std::fill_n(row_[k].begin(), count, background[k]);
-    }
-    if (content.sea) ShadeSea(tile, y, background);
-    for (size_t at = 0; content.objects && at < count; ++at) {
-      const uint32_t owner = owner_[at];
-      if (owner >= kDone) continue;
-      CollectHits(tile, y, at);
-      ShadeObject(*tile, owner);
-      for (int k = 0; k < 3; ++k) {
-        for (size_t i = 0; i < hits_.size; ++i) row_[k][hits_.place[i]] = hits_.color[k][i];
-      }
-    }
-    float* out = rgb.data() + static_cast<size_t>(y - rect.y) * width * 3;
-    for (int k = 0; k < 3; ++k) {
-      const float* from = row_[k].data();
-      for (size_t x = 0; x < width; ++x) {
-        float sum = from[x * samples];
-        for (size_t s = 1; s < samples; ++s) sum += from[x * samples + s];
-        out[3 * x + k] = sum * share;
-      }
-    }
+  StartTile(tile);
+  for (int32_t y = tile.y; y < tile.bottom(); ++y) {
+    const bool any = y >= drawn.rect().y && y < drawn.rect().bottom();
+    DevelopRow(y, any ? &drawn : nullptr,
+               rgb.data() + static_cast<size_t>(y - tile.y) * static_cast<size_t>(tile.width) * 3);
   }
 }
 
 size_t Film::Bytes() const {
   constexpr size_t kPerHit = 4 + 6 * 8 + 10 * 4;
-  return owner_.capacity() * (4 + 2 * 8 + 3 * 4) + hit_of_.capacity() * 4 +
+  return owner_.capacity() * (4 + 3 * 4) + hit_of_.capacity() * 4 +
          (hits_.x.capacity() + sea_.x.capacity()) * kPerHit +
          texture_.capacity() * sizeof(SurfaceSample);
 }

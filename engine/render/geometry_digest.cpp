@@ -11,7 +11,7 @@ class LeafSum final : public StreamSink {
  public:
   explicit LeafSum(uint64_t object) : object_(object) {}
 
-  bool Wants(const Vec3&, const Vec3&, const Vec3&, double) override { return true; }
+  bool Wants(const Vec3&, const Vec3&, const Vec3&, const StreamReach&) override { return true; }
 
   void Take(const StreamBatch& batch) override {
     hashes_.clear();

@@ -7,7 +7,7 @@
 #include "engine/render/clip.h"
 #include "engine/render/integer.h"
 #include "engine/render/raster_source.h"
-#include "engine/render/resolve.h"
+#include "engine/render/raster_medium.h"
 #include "engine/render/triangle_setup.h"
 
 namespace fjord {
@@ -99,15 +99,8 @@ HitRecord Raster::MakeRecord(const StreamBatch& batch, uint32_t a, uint32_t b, u
 
 void Raster::Draw(const StreamBatch& batch) {
   ProjectVertices(to_, batch.vertices, &projected_);
-  if (!batch.triangles.empty()) {
-    FindCoverage(batch.triangles, projected_, tile_->rect(), tile_->places(), &coverage_);
-    DrawMicro(batch);
-    for (size_t i = 0; i < coverage_.larges; ++i) {
-      const Triangle& triangle = batch.triangles[coverage_.large[i]];
-      bool clipped = false;
-      for (const uint32_t v : triangle) clipped |= projected_.xy[2 * v] == kOutOfGuard;
-      clipped ? DrawClipped(batch, triangle) : DrawWhole(batch, triangle);
-    }
+  for (size_t first = 0; first < batch.triangles.size(); first += kCoverageBlock) {
+    DrawBlock(batch, first, std::min(kCoverageBlock, batch.triangles.size() - first));
   }
   if (line_width_ > 0) {
     for (const auto& segment : batch.segments) DrawStroke(batch, segment);
@@ -116,8 +109,7 @@ void Raster::Draw(const StreamBatch& batch) {
 }
 
 size_t Raster::Bytes() const {
-  return projected_.xy.capacity() * 4 + projected_.depth.capacity() * 8 +
-         coverage_.x.capacity() * 16 + coverage_.large.capacity() * 4;
+  return projected_.xy.capacity() * 4 + projected_.depth.capacity() * 8 + coverage_.Bytes();
 }
 
 void Raster::DrawWhole(const StreamBatch& batch, const Triangle& triangle) {

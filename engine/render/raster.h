@@ -41,18 +41,14 @@ class Raster {
   // All triangles and segments of a batch.
   void Draw(const StreamBatch& batch);
 
-  // For the SIMD half: a record of the triangle a, b, c (a leads) ...
-  uint32_t AddHit(const StreamBatch& batch, uint32_t a, uint32_t b, uint32_t c) const;
-  // ... and which of the tied samples index + i (bit i) it wins.
-  uint32_t WonTies(const StreamBatch& batch, const Triangle& triangle, size_t index,
-                   uint32_t bits) const;
-
   const TileBuffer& tile() const { return *tile_; }
   const Projection& projection() const { return to_; }
   size_t Bytes() const;
 
  private:
-  void DrawMicro(const StreamBatch& batch);
+  // Triangles first.. of the batch, at most kCoverageBlock.
+  void DrawBlock(const StreamBatch& batch, size_t first, size_t count);
+  uint32_t AddHit(const StreamBatch& batch, const Triangle& triangle);
   void DrawWhole(const StreamBatch& batch, const Triangle& triangle);
   void DrawClipped(const StreamBatch& batch, const Triangle& triangle);
   void DrawStroke(const StreamBatch& batch, const std::array<uint32_t, 2>& segment);
@@ -68,6 +64,7 @@ class Raster {
   double line_width_ = 1;
   ProjectedBatch projected_;
   CoverageList coverage_;
+  std::array<uint32_t, kCoverageBlock> hit_of_{};  // of the block's triangles
 };
 
 }  // namespace fjord

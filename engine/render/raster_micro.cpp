@@ -1,12 +1,14 @@
-// Micro-triangles: coverage comes from the SIMD kernel as masks; here depth decides.
+// Micro-triangles: coverage and depths come from the SIMD kernels; here the nearest stay.
 #include "engine/render/raster.h"
 #include "engine/render/raster_source.h"
-#include "engine/render/resolve.h"
 #include "engine/render/triangle_setup.h"
 
 namespace fjord {
 
-uint32_t Raster::AddHit(const StreamBatch& batch, uint32_t a, uint32_t b, uint32_t c) const {
+uint32_t Raster::AddHit(const StreamBatch& batch, const Triangle& triangle) {
+  const int lead = LeadingCorner(projected_.At(triangle[0]), projected_.At(triangle[1]),
+                                 projected_.At(triangle[2]));
+  const uint32_t a = triangle[lead], b = triangle[(lead + 1) % 3], c = triangle[(lead + 2) % 3];
   HitRecord record = MakeRecord(batch, a, b, c);
   if (attributes_.any()) {
     record.corners = tile_->AddCorners(
@@ -15,44 +17,32 @@ uint32_t Raster::AddHit(const StreamBatch& batch, uint32_t a, uint32_t b, uint32
   return tile_->AddRecord(record);
 }
 
-uint32_t Raster::WonTies(const StreamBatch& batch, const Triangle& triangle, size_t index,
-                         uint32_t bits) const {
-  uint64_t tie = 0;
-  for (const uint32_t v : triangle) tie += batch.vertices[v].id;
-  uint32_t won = 0;
-  for (uint32_t i = 0; bits >> i != 0; ++i) {
-    if (((bits >> i) & 1) != 0 && tile_->WinsTie(index + i, object_, tie)) won |= 1u << i;
-  }
-  return won;
-}
-
-void Raster::DrawMicro(const StreamBatch& batch) {
-  if (tile_->places().size() >= 4) {
-    ResolveMicro(batch, projected_, coverage_, *this, tile_);
-    return;
-  }
-  const SamplePlace place = tile_->places()[0];
+void Raster::DrawBlock(const StreamBatch& batch, size_t first, size_t count) {
+  const std::span<const Triangle> triangles = batch.triangles.subspan(first, count);
+  FindCoverage(triangles, projected_, tile_->rect(), tile_->places(), &coverage_);
+  FindDepths(triangles, projected_, &coverage_);
+  std::fill_n(hit_of_.begin(), count, kNoHit);
+  double* depths = tile_->depth();
   for (size_t i = 0; i < coverage_.hits; ++i) {
-    const Triangle& triangle = batch.triangles[coverage_.triangle[i]];
-    const ScreenPoint p[3] = {projected_.At(triangle[0]), projected_.At(triangle[1]),
-                              projected_.At(triangle[2])};
-    const int lead = LeadingCorner(p[0], p[1], p[2]);
-    const int second = lead == 2 ? 0 : lead + 1;
-    const int third = second == 2 ? 0 : second + 1;
-    const DepthPlane plane(p[lead], p[second], p[third]);
-    uint32_t hit = kNoHit;
-    for (uint32_t mask = coverage_.mask[i]; mask != 0; mask &= mask - 1) {
-      const int32_t pixel = __builtin_ctz(mask);
-      const int32_t x = coverage_.x[i] + (pixel & 1), y = coverage_.y[i] + (pixel >> 1);
-      const size_t index = tile_->Index(x, y, 0);
-      const double depth = plane.At(x * kFixedOne + place.x, y * kFixedOne + place.y);
-      double& there = tile_->depth()[index];
-      if (!(depth >= there)) continue;
-      if (depth == there && WonTies(batch, triangle, index, 1) == 0) continue;
-      if (hit == kNoHit) hit = AddHit(batch, triangle[lead], triangle[second], triangle[third]);
-      there = depth;
-      tile_->hit()[index] = hit;
+    const uint32_t sample = coverage_.sample[i];
+    const double depth = coverage_.depth[i];
+    if (!(depth >= depths[sample])) continue;
+    const Triangle& triangle = triangles[coverage_.triangle[i]];
+    if (depth == depths[sample]) {
+      uint64_t tie = 0;
+      for (const uint32_t v : triangle) tie += batch.vertices[v].id;
+      if (!tile_->WinsTie(sample, object_, tie)) continue;
     }
+    uint32_t& hit = hit_of_[coverage_.triangle[i]];
+    if (hit == kNoHit) hit = AddHit(batch, triangle);
+    depths[sample] = depth;
+    tile_->hit()[sample] = hit;
+  }
+  for (size_t i = 0; i < coverage_.larges; ++i) {
+    const Triangle& triangle = triangles[coverage_.large[i]];
+    bool clipped = false;
+    for (const uint32_t v : triangle) clipped |= projected_.xy[2 * v] == kOutOfGuard;
+    clipped ? DrawClipped(batch, triangle) : DrawWhole(batch, triangle);
   }
 }
 

@@ -1,6 +1,9 @@
-// The sea's part of shading (shade.h).
+// The sea: its depths (view_plane.h) and what the sky does to its colour (shade.h).
+#include <limits>
+
 #include "engine/base/simd.h"
 #include "engine/render/shade.h"
+#include "engine/render/view_plane.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/render/sea.cpp"
@@ -14,32 +17,18 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-size_t Find(const ViewPlane& sea, const double* HWY_RESTRICT xs, const double* HWY_RESTRICT ys,
-            double top, size_t count, uint32_t mark, double* HWY_RESTRICT depth,
-            uint32_t* HWY_RESTRICT owner) {
+void Lay(const ViewPlane& plane, const double* HWY_RESTRICT xs, const double* HWY_RESTRICT ys,
+         double top, size_t count, double* HWY_RESTRICT depth) {
   const hn::ScalableTag<double> d;
-  const size_t lanes = hn::Lanes(d);
   const auto set = [&](double v) HWY_ATTR { return hn::Set(d, v); };
-  size_t seen = 0;
-  for (size_t i = 0; i < count; i += lanes) {
-    const size_t n = count - i < lanes ? count - i : lanes;
+  const auto none = set(-std::numeric_limits<double>::infinity());
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto x = hn::LoadU(d, xs + i), y = hn::Add(set(top), hn::LoadU(d, ys + i));
-    const auto at = hn::Add(hn::Add(set(sea.depth), hn::Mul(set(sea.along_x), x)),
-                            hn::Mul(set(sea.along_y), y));
-    auto shown = hn::And(hn::And(hn::Gt(at, set(sea.least)), hn::Le(at, set(sea.most))),
-                         hn::Gt(hn::Sub(at, set(sea.rounding)), hn::LoadU(d, depth + i)));
-    shown = hn::And(shown, hn::FirstN(d, n));
-    if (hn::AllFalse(d, shown)) continue;
-    hn::BlendedStore(at, shown, d, depth + i);
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, shown, bits);
-    for (size_t k = 0; k < n; ++k) {
-      if (((bits[k / 8] >> (k % 8)) & 1) == 0) continue;
-      owner[i + k] = mark;
-      ++seen;
-    }
+    const auto at = hn::Add(hn::Add(set(plane.depth), hn::Mul(set(plane.along_x), x)),
+                            hn::Mul(set(plane.along_y), y));
+    const auto seen = hn::And(hn::Gt(at, set(plane.least)), hn::Le(at, set(plane.most)));
+    hn::StoreU(hn::IfThenElse(seen, hn::Sub(at, set(plane.rounding)), none), d, depth + i);
   }
-  return seen;
 }
 
 void Reflect(const Rgb& horizon, const Rgb& top, SurfaceHits* hits) {
@@ -69,13 +58,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fjord {
 namespace {
-HWY_EXPORT(Find);
+HWY_EXPORT(Lay);
 HWY_EXPORT(Reflect);
 }  // namespace
 
-size_t FindSea(const ViewPlane& sea, const double* x, const double* y, double top, size_t count,
-               uint32_t mark, double* depth, uint32_t* owner) {
-  return HWY_DYNAMIC_DISPATCH(Find)(sea, x, y, top, count, mark, depth, owner);
+void LayPlane(const ViewPlane& plane, const double* x, const double* y, double top, size_t count,
+              double* depth) {
+  HWY_DYNAMIC_DISPATCH(Lay)(plane, x, y, top, count, depth);
 }
 
 void ReflectSky(const Rgb& horizon, const Rgb& top, SurfaceHits* hits) {

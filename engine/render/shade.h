@@ -12,7 +12,6 @@
 #include "engine/render/built_frame.h"
 #include "engine/render/rays.h"
 #include "engine/render/surface_hits.h"
-#include "engine/render/view_plane.h"
 
 namespace fjord {
 
@@ -48,12 +47,6 @@ void LocateHits(const HitGeometry& geometry, SurfaceHits* hits);
 
 // Fills color from height: linear between stops, the end colours outside (S29).
 void ColorByHeight(std::span<const RampStop> ramp, SurfaceHits* hits);
-
-// Where the sea is seen before `depth` (count samples at x, top + y in 1/256 pixel), marks `owner`
-// with `mark` and puts its depths into `depth`. Returns how often it is. depth is padded for SIMD
-// lanes.
-size_t FindSea(const ViewPlane& sea, const double* x, const double* y, double top, size_t count,
-               uint32_t mark, double* depth, uint32_t* owner);
 
 // Still water throws back the sky (Schlick): color mixed with it by .02 + .98 (1 - c)^5, c the
 // cosine of the angle of sight to the vertical. The sky runs from `horizon` (c = 0) to `top`.

@@ -7,7 +7,8 @@
 // V1 What a sample keeps does not depend on the order of arrival: the larger depth wins, a tie goes
 // to
 //    the smaller (object, tie).
-// V2 A record is made only for a triangle that won a sample when it came; records no sample refers
+// V2 The sea is there from the start: what lies under it never gets a record.
+// V3 A record is made only for a triangle that won a sample when it came; records no sample refers
 // to
 //    any more are dropped when there are too many, so memory is bounded by the samples.
 //
@@ -21,6 +22,7 @@
 
 #include "engine/geometry/vec.h"
 #include "engine/render/samples.h"
+#include "engine/render/view_plane.h"
 
 namespace fjord {
 
@@ -51,8 +53,8 @@ struct HitRecord {
 
 class TileBuffer {
  public:
-  // Empties it for another tile.
-  void Reset(const TileRect& rect, uint32_t samples);
+  // Empties it for another tile. sea: null, or what must be passed to be seen.
+  void Reset(const TileRect& rect, uint32_t samples, const ViewPlane* sea);
 
   const TileRect& rect() const { return rect_; }
   std::span<const SamplePlace> places() const { return places_; }
@@ -65,8 +67,13 @@ class TileBuffer {
                places_.size() +
            static_cast<size_t>(s);
   }
+  // Places of a row's samples, 1/256 pixel; y within the row of pixels. Padded for SIMD lanes.
+  const double* sample_x() const { return sample_x_.data(); }
+  const double* sample_y() const { return sample_y_.data(); }
   double* depth() { return depth_.data(); }
+  const double* depth() const { return depth_.data(); }
   uint32_t* hit() { return hit_.data(); }
+  const uint32_t* hit() const { return hit_.data(); }
   const HitRecord& record(uint32_t hit) const { return records_[hit]; }
   const CornerValues& corners(uint32_t index) const { return corners_[index]; }
 
@@ -87,6 +94,10 @@ class TileBuffer {
     return object != record.object ? object < record.object : tie < record.tie;
   }
 
+  // Does every sample of pixels left..right, top..bottom (cut to the tile) have something nearer
+  // than `depth`?
+  bool Hides(int32_t left, int32_t top, int32_t right, int32_t bottom, double depth) const;
+
   // Call between batches: no record index may be held across it.
   void CompactIfLarge();
 
@@ -97,9 +108,11 @@ class TileBuffer {
   static constexpr size_t kLargestBatch = 16384;
 
   void Compact();
+  void LimitRecords(size_t kept);
 
   TileRect rect_;
   std::span<const SamplePlace> places_;
+  std::vector<double> sample_x_, sample_y_;
   std::vector<double> depth_;
   std::vector<uint32_t> hit_;
   std::vector<HitRecord> records_;

@@ -5,16 +5,29 @@
 #include <memory>
 #include <mutex>
 
+#include "engine/base/clamp.h"
 #include "engine/base/parallel.h"
 #include "engine/render/film.h"
 #include "engine/render/frame_setup.h"
 #include "engine/render/outline_fill.h"
+#include "engine/render/screen_bound.h"
 
 namespace fjord {
 namespace {
 
-constexpr int kTileSize = 256;
 constexpr size_t kPatchSize = 2048;
+
+struct TileSize {
+  int32_t width, height;
+};
+
+// Terrain moves up and down more than sideways, so what is made twice lies along the upper and lower
+// edges of tiles: few of those, and no more columns than the threads need to be busy.
+TileSize ChooseTile(const TileRect& region, int threads) {
+  constexpr int32_t kTall = 1088;
+  const int32_t share = region.width / (threads <= 1 ? 1 : 4 * threads) / 16 * 16;
+  return {std::clamp(share, 64, 256), kTall};
+}
 
 bool IsSet(const std::atomic<bool>* cancel) {
   return cancel != nullptr && cancel->load(std::memory_order_relaxed);
@@ -28,8 +41,9 @@ class TileSink final : public StreamSink {
            OutlineFill* fill)
       : frustum_(frustum), cancel_(cancel), raster_(raster), fill_(fill) {}
 
-  bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, double reach) override {
-    return !IsSet(cancel_) && frustum_.MayTouch(a, b, c, reach);
+  bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) override {
+    return !IsSet(cancel_) && frustum_.MayTouch(a, b, c, reach) &&
+           (fill_ != nullptr || !IsHidden(a, b, c, reach));
   }
   void Take(const StreamBatch& batch) override {
     raster_->Draw(batch);
@@ -37,6 +51,20 @@ class TileSink final : public StreamSink {
   }
 
  private:
+  // Is all of it behind what the tile holds already? Asked of small ones only: large ones are seldom
+  // hidden, and cut anyway.
+  bool IsHidden(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) const {
+    constexpr double kLargest = 64 * kFixedOne;
+    const std::optional<ScreenBound> bound = BoundOnScreen(raster_->projection(), a, b, c, reach);
+    if (!bound || !(bound->right - bound->left < kLargest) ||
+        !(bound->bottom - bound->top < kLargest)) {
+      return false;
+    }
+    return raster_->tile().Hides(FloorToInt32(bound->left) >> 8, FloorToInt32(bound->top) >> 8,
+                                 FloorToInt32(bound->right) >> 8, FloorToInt32(bound->bottom) >> 8,
+                                 bound->depth);
+  }
+
   const TileFrustum& frustum_;
   const std::atomic<bool>* cancel_;
   Raster* raster_;
@@ -92,7 +120,9 @@ class RegionRenderer {
  public:
   RegionRenderer(const BuiltFrame& frame, const TileRect& region, const RenderOptions& options)
       : setup_(frame), region_(region), options_(options) {
-    lists_ = BinRoots(region, options.tile_size > 0 ? options.tile_size : kTileSize, setup_.cull);
+    const TileSize size = options.tile_size > 0 ? TileSize{options.tile_size, options.tile_size}
+                                                : ChooseTile(region, Threads());
+    lists_ = BinRoots(region, size.width, size.height, setup_.cull);
     picture_.width = static_cast<uint32_t>(region.width);
     picture_.height = static_cast<uint32_t>(region.height);
     picture_.format = frame.format;
@@ -103,29 +133,30 @@ class RegionRenderer {
   Result<RenderedFrame> Run() {
     ParallelFor(lists_.tiles.size(), options_.threads, [this](size_t i) { RenderTile(i); });
     if (IsSet(options_.cancel)) return MakeError(ErrorCode::kCancelled, "cancelled");
-    const size_t threads =
-        static_cast<size_t>(options_.threads > 0 ? options_.threads : HardwareThreads());
-    stats_.peak_bytes = most_bytes_ * std::min(threads, lists_.tiles.size());
+    stats_.peak_bytes =
+        most_bytes_ * std::min(static_cast<size_t>(Threads()), lists_.tiles.size());
     stats_.peak_bytes += picture_.bytes.size() + lists_.refs.capacity() * sizeof(RootRef);
     return RenderedFrame{std::move(picture_), stats_};
   }
 
  private:
+  int Threads() const { return options_.threads > 0 ? options_.threads : HardwareThreads(); }
+
   void RenderTile(size_t tile) {
     if (IsSet(options_.cancel)) return;
     std::unique_ptr<Worker> worker = WorkerPool::Get().Borrow();
     const TileRect& rect = lists_.tiles[tile];
     const StreamStats made = Draw(tile, worker.get());
     worker->rgb.resize(static_cast<size_t>(rect.width) * static_cast<size_t>(rect.height) * 3);
-    worker->film.Develop(setup_, &worker->buffer, worker->rgb);
+    worker->film.Develop(setup_, rect, worker->buffer, worker->rgb);
     Store(rect, worker->rgb);
     Return(std::move(worker), made);
   }
 
   StreamStats Draw(size_t tile, Worker* worker) {
-    const TileRect& rect = lists_.tiles[tile];
+    const TileRect& rect = lists_.busy[tile];
     const size_t patch = options_.patch_size > 0 ? options_.patch_size : kPatchSize;
-    worker->buffer.Reset(rect, setup_.frame.samples);
+    worker->buffer.Reset(rect, setup_.frame.samples, setup_.sea ? &*setup_.sea : nullptr);
     StreamStats made;
     uint32_t i = lists_.start[tile];
     const uint32_t end = lists_.start[tile + 1];

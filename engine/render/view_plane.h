@@ -2,6 +2,7 @@
 // is linear over the picture, so it is evaluated per sample, not drawn.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "engine/render/view.h"
@@ -22,5 +23,10 @@ struct ViewPlane {
 
 // None where the eye lies in the plane or looks along it.
 std::optional<ViewPlane> MakeViewPlane(const View& view, const Vec3& point, const Vec3& normal);
+
+// What must be passed to be seen before the plane: its depth less the rounding, -infinity where it
+// is not seen. Of count samples at x, top + y (1/256 pixel); `depth` is padded for SIMD lanes.
+void LayPlane(const ViewPlane& plane, const double* x, const double* y, double top, size_t count,
+              double* depth);
 
 }  // namespace fjord

@@ -41,7 +41,7 @@ inline Leaf Led(Leaf leaf) {
 // Keeps all leaves. `wanted`, where set, is asked for every subtree.
 class CollectSink : public StreamSink {
  public:
-  bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, double reach) override {
+  bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) override {
     ++asked;
     return !wanted || wanted(a, b, c, reach);
   }
@@ -60,7 +60,7 @@ class CollectSink : public StreamSink {
     }
   }
 
-  std::function<bool(const Vec3&, const Vec3&, const Vec3&, double)> wanted;
+  std::function<bool(const Vec3&, const Vec3&, const Vec3&, const StreamReach&)> wanted;
   std::vector<Leaf> leaves;
   std::vector<Vec3> points;
   size_t asked = 0;

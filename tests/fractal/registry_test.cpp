@@ -213,11 +213,11 @@ TEST(RegistryTest, S7_CullingLosesNothingThatIsWanted) {
     auto expected = test::StreamedLeaves(*fractal);
     std::erase_if(expected, [&](const Leaf& leaf) { return !touches(leaf); });
     CollectSink sink;
-    sink.wanted = [&](const Vec3& a, const Vec3& b, const Vec3& d, double reach) {
+    sink.wanted = [&](const Vec3& a, const Vec3& b, const Vec3& d, const StreamReach& reach) {
       const Vec3 center = (a + b + d) / 3.0;
       const double size =
           std::max({Length(a - center), Length(b - center), Length(d - center)}) * (1 + 1e-12);
-      return Length(center - eye) <= kRadius + size + reach;
+      return Length(center - eye) <= kRadius + size + reach.Any();
     };
     for (size_t root = 0; root < fractal->RootCount(); ++root) {
       fractal->Stream(root, sink, 256);

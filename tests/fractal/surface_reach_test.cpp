@@ -84,9 +84,9 @@ TEST(SurfaceReachTest, S7_NoVertexLeavesItsBound) {
       for (size_t root = 0; root < prepared->RootCount(); ++root) {
         CollectSink sink;
         std::array<Vec3, 3> corner;
-        double reach = -1;
-        sink.wanted = [&](const Vec3& a, const Vec3& b, const Vec3& c, double r) {
-          if (reach < 0) {
+        StreamReach reach(-1);
+        sink.wanted = [&](const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& r) {
+          if (reach.around < 0) {
             corner = {a, b, c};
             reach = r;
           }
@@ -97,8 +97,14 @@ TEST(SurfaceReachTest, S7_NoVertexLeavesItsBound) {
         for (const Vec3& p : sink.points) {
           ASSERT_LE(Length(p - ball.center), ball.radius) << one.name;
           const double away = Distance(p, corner[0], corner[1], corner[2]);
-          ASSERT_LE(away, reach + 1e-12) << one.name;
-          most = std::max(most, away / reach);
+          ASSERT_LE(away, reach.Any() + 1e-12) << one.name;
+          most = std::max(most, away / reach.Any());
+          for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(-.48, .6, .64)}) {
+            const auto [least, largest] = std::minmax(
+                {glm::dot(corner[0], way), glm::dot(corner[1], way), glm::dot(corner[2], way)});
+            ASSERT_LE(glm::dot(p, way), largest + reach.Towards(way) + 1e-12) << one.name;
+            ASSERT_GE(glm::dot(p, way), least - reach.Towards(way) - 1e-12) << one.name;
+          }
         }
       }
     }
@@ -117,8 +123,9 @@ TEST(SurfaceReachTest, S7_CullingLosesNothingThatIsWanted) {
       const double radius = .05;
       for (const size_t hint : {16u, 64u, 256u}) {
         CollectSink culled;
-        culled.wanted = [&](const Vec3& a, const Vec3& b, const Vec3& c, double reach) {
-          return Distance(center, a, b, c) <= radius + reach;
+        culled.wanted = [&](const Vec3& a, const Vec3& b, const Vec3& c,
+                            const StreamReach& reach) {
+          return Distance(center, a, b, c) <= radius + reach.Any();
         };
         prepared->Stream(root, culled, hint);
         std::sort(culled.leaves.begin(), culled.leaves.end());
@@ -146,8 +153,8 @@ TEST(SurfaceReachTest, S7_CullingSavesWork) {
     CollectSink sink;
     all.triangles += prepared->Stream(root, sink, 256).triangles;
     CollectSink culled;
-    culled.wanted = [](const Vec3& a, const Vec3& b, const Vec3& c, double reach) {
-      return Distance(Vec3(0, 0, 0), a, b, c) <= .1 + reach;
+    culled.wanted = [](const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) {
+      return Distance(Vec3(0, 0, 0), a, b, c) <= .1 + reach.Any();
     };
     const StreamStats stats = prepared->Stream(root, culled, 256);
     some.triangles += stats.triangles;

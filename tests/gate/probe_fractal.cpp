@@ -14,7 +14,7 @@ namespace {
 // Hashes of leaves are added, so their order does not matter.
 class LeafSet : public StreamSink {
  public:
-  bool Wants(const Vec3&, const Vec3&, const Vec3&, double) override { return true; }
+  bool Wants(const Vec3&, const Vec3&, const Vec3&, const StreamReach&) override { return true; }
 
   void Take(const StreamBatch& batch) override {
     hashes_.clear();

@@ -1,5 +1,4 @@
-// The depth half of the rasteriser for small triangles, four samples of a pixel at a time. The same
-// bits at every SIMD level.
+// Triangles of a few pixels, four samples of a pixel at a time. The same bits at every SIMD level.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +14,6 @@ namespace fjord {
 
 // Corners of triangles up to so many pixels across fit FillMedium.
 inline constexpr int32_t kMediumPixels = 32;
-
-// The hits of a coverage list against the buffer. 4 or 16 samples a pixel.
-void ResolveMicro(const StreamBatch& batch, const ProjectedBatch& projected,
-                  const CoverageList& coverage, const Raster& raster, TileBuffer* tile);
 
 // One triangle, p, q, r turned so that its area is positive; 4 or 16 samples a pixel. its record is
 // added when a sample is won.

@@ -1,4 +1,4 @@
-#include "engine/render/resolve.h"
+#include "engine/render/raster_medium.h"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@
 #include "engine/render/raster_source.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "engine/render/resolve.cpp"
+#define HWY_TARGET_INCLUDE "engine/render/raster_medium.cpp"
 #include "hwy/foreach_target.h"  // NOLINT: compiles this file once per target
 #include "hwy/highway.h"
 
@@ -81,44 +81,6 @@ HWY_INLINE void StoreHit(uint32_t hit, uint32_t bits, uint32_t* HWY_RESTRICT to)
   }
 }
 
-void Resolve(const StreamBatch& batch, const ProjectedBatch& projected,
-             const CoverageList& coverage, const Raster& raster, TileBuffer* tile) {
-  double* depths = tile->depth();
-  uint32_t* hits = tile->hit();
-  uint32_t group = 0;
-  FourPlaces places(tile->places().data());
-  for (size_t i = 0; i < coverage.hits; ++i) {
-    const Triangle& triangle = batch.triangles[coverage.triangle[i]];
-    const uint32_t mask = coverage.mask[i];
-    if (mask >> 16 != group) {
-      group = mask >> 16;
-      places = FourPlaces(tile->places().data() + 4 * group);
-    }
-    const ScreenPoint p[3] = {projected.At(triangle[0]), projected.At(triangle[1]),
-                              projected.At(triangle[2])};
-    const int lead = LeadingCorner(p[0], p[1], p[2]);
-    const int second = lead == 2 ? 0 : lead + 1;
-    const int third = second == 2 ? 0 : second + 1;
-    const DepthPlane plane(p[lead], p[second], p[third]);
-    uint32_t hit = kNoHit;
-    for (uint32_t pixel = 0; pixel < 4; ++pixel) {
-      const uint32_t bits = (mask >> (4 * pixel)) & 15;
-      if (bits == 0) continue;
-      const int32_t x = coverage.x[i] + static_cast<int32_t>(pixel & 1);
-      const int32_t y = coverage.y[i] + static_cast<int32_t>(pixel >> 1);
-      const size_t base = tile->Index(x, y, static_cast<int32_t>(4 * group));
-      uint32_t tied = 0;
-      uint32_t won = Nearer(plane, places, x, y, bits, depths + base, &tied);
-      if (HWY_UNLIKELY(tied != 0)) won |= raster.WonTies(batch, triangle, base, tied);
-      if (won == 0) continue;
-      if (hit == kNoHit) {
-        hit = raster.AddHit(batch, triangle[lead], triangle[second], triangle[third]);
-      }
-      StoreHit(hit, won, hits + base);
-    }
-  }
-}
-
 void Medium(const ScreenPoint& p, const ScreenPoint& q, const ScreenPoint& r,
             const DepthPlane& plane, HitSource* source, TileBuffer* tile) {
   const I d;
@@ -181,14 +143,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fjord {
 namespace {
-HWY_EXPORT(Resolve);
 HWY_EXPORT(Medium);
 }  // namespace
-
-void ResolveMicro(const StreamBatch& batch, const ProjectedBatch& projected,
-                  const CoverageList& coverage, const Raster& raster, TileBuffer* tile) {
-  HWY_DYNAMIC_DISPATCH(Resolve)(batch, projected, coverage, raster, tile);
-}
 
 void FillMedium(const ScreenPoint& p, const ScreenPoint& q, const ScreenPoint& r,
                 const DepthPlane& plane, HitSource* source, TileBuffer* tile) {
