@@ -128,8 +128,7 @@ foreign() {
     ((native)) && exit 1
     exit 77
   fi
-  PKG_CONFIG_LIBDIR=$dir/usr/lib/$triple/pkgconfig:$dir/usr/share/pkgconfig PKG_CONFIG_SYSROOT_DIR=$dir \
-    build "$arch-$level" -DCMAKE_TOOLCHAIN_FILE="$here/cross.cmake" -DFJORD_CROSS="$triple" \
+  build "$arch-$level" -DCMAKE_TOOLCHAIN_FILE="$here/cross.cmake" -DFJORD_CROSS="$triple" \
     -DFJORD_SYSROOT="$dir" -DCMAKE_CXX_FLAGS_RELEASE="-$level"
   runs "$arch-$level" "$qemu" -L "/usr/$triple" -E "LD_LIBRARY_PATH=$dir/usr/lib/$triple" \
     "$work/$arch-$level/tests/gate/fjord_probe"
