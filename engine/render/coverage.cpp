@@ -73,23 +73,60 @@ struct Lanes {
   }
 };
 
-// One edge a -> b of a lane's triangle: value at (x, y) from the upper left corner of its box = A x
-// + B y + value, >= 0 inside; the top-left rule is in the value.
+// Differences within a triangle of two pixels at most fit 16 bits: x in the lower, y in the upper
+// half of a lane, and one instruction multiplies and adds both.
+HWY_INLINE VI Pack(VI x, VI y) {
+  return hn::Or(hn::And(x, hn::Set(I32(), 0xffff)), hn::ShiftLeft<16>(y));
+}
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE VI LowHalf(VI v) { return hn::ShiftRight<16>(hn::ShiftLeft<16>(v)); }
+HWY_INLINE VI Minus(VI a, VI b) {
+  return Pack(LowHalf(a) - LowHalf(b), hn::ShiftRight<16>(a) - hn::ShiftRight<16>(b));
+}
+HWY_INLINE VI PairDot(VI a, VI b) {
+  return LowHalf(a) * LowHalf(b) + hn::ShiftRight<16>(a) * hn::ShiftRight<16>(b);
+}
+#else
+using I16 = hn::Repartition<int16_t, I32>;
+HWY_INLINE VI Minus(VI a, VI b) {
+  return hn::BitCast(I32(), hn::BitCast(I16(), a) - hn::BitCast(I16(), b));
+}
+HWY_INLINE VI PairDot(VI a, VI b) {
+  const I32 d;
+  VI other = hn::Zero(d);
+  const VI sum = hn::ReorderWidenMulAccumulate(d, hn::BitCast(I16(), a), hn::BitCast(I16(), b),
+                                               hn::Zero(d), other);
+  return hn::RearrangeToOddPlusEven(sum, other);
+}
+#endif
+
+// Of d = (dx, dy): (-dy, dx).
+HWY_INLINE VI TurnLeft(VI v) {
+  const VI low = hn::Set(I32(), 0xffff);
+  const V32 bits = Unsigned(v);
+  const VI swapped = Signed(hn::Or(hn::ShiftLeft<16>(bits), hn::ShiftRight<16>(bits)));
+  return Minus(hn::Xor(swapped, low), low);
+}
+
+// One edge a -> b of a lane's triangle, corners from the upper left corner of its box: >= 0 inside.
 struct LaneEdge {
-  VI a, b, value;
+  VI normal, value;
 
   LaneEdge() = default;
-  HWY_INLINE LaneEdge(VI ax, VI ay, VI bx, VI by, VI ox, VI oy) {
+  HWY_INLINE LaneEdge(VI a, VI b) {
     const I32 d;
-    a = ay - by;
-    b = bx - ax;
-    const MI left = hn::Gt(a, hn::Zero(d));
-    const MI top = hn::And(hn::Eq(a, hn::Zero(d)), hn::Gt(b, hn::Zero(d)));
-    const VI bias = hn::IfThenZeroElse(hn::Or(left, top), hn::Set(d, -1));
-    value = a * (ox - ax) + (b * (oy - ay) + bias);
+    const VI way = Minus(b, a);
+    normal = TurnLeft(way);
+    // Left edges go up (way < 0), top ones to the right (0 < way < 2^15): samples on them belong to
+    // the triangle.
+    const VI bias = hn::IfThenZeroElse(hn::Lt(way, hn::Set(d, 0x8000)), hn::Set(d, -1));
+    value = bias - PairDot(normal, a);
   }
-  HWY_INLINE VI At(VI x, VI y) const { return (value + a * x) + b * y; }
+  HWY_INLINE VI At(VI place) const { return value + PairDot(normal, place); }
 };
+
+// With many lanes there is nearly always something to do.
+constexpr bool kBranch = kLanes32 < 16;
 
 // Appends hits.
 class Coverer {
@@ -112,17 +149,15 @@ class Coverer {
   // numbers: of the triangles.
   HWY_INLINE void Cover(const Lanes& t, MI active, V32 numbers, int32_t across, int32_t down) {
     const I32 d;
-    const VI area = (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.x[2] - t.x[0]) * (t.y[1] - t.y[0]);
+    VI corner[3];
+    for (int k = 0; k < 3; ++k) corner[k] = Pack(t.x[k] - t.left, t.y[k] - t.top);
+    const VI area = PairDot(TurnLeft(Minus(corner[1], corner[0])), Minus(corner[2], corner[0]));
     active = hn::And(active, hn::Ne(area, hn::Zero(d)));
     if (hn::AllFalse(d, active)) return;
     const MI turned = hn::Lt(area, hn::Zero(d));
-    const VI bx = hn::IfThenElse(turned, t.x[2], t.x[1]);
-    const VI by = hn::IfThenElse(turned, t.y[2], t.y[1]);
-    const VI cx = hn::IfThenElse(turned, t.x[1], t.x[2]);
-    const VI cy = hn::IfThenElse(turned, t.y[1], t.y[2]);
-    const LaneEdge edge[3] = {{t.x[0], t.y[0], bx, by, t.left, t.top},
-                              {bx, by, cx, cy, t.left, t.top},
-                              {cx, cy, t.x[0], t.y[0], t.left, t.top}};
+    const VI second = hn::IfThenElse(turned, corner[2], corner[1]);
+    const VI third = hn::IfThenElse(turned, corner[1], corner[2]);
+    const LaneEdge edge[3] = {{corner[0], second}, {second, third}, {third, corner[0]}};
     const VI width = t.right - t.left, height = t.bottom - t.top;
     const VI within = hn::Set(d, kFixedOne - 1);
     const auto samples = static_cast<int32_t>(places_.size());
@@ -135,10 +170,11 @@ class Coverer {
           const VI x = first_x + hn::Set(d, i * kFixedOne);
           const VI y = first_y + hn::Set(d, j * kFixedOne);
           const MI in_box = hn::And(active, hn::And(AtLeast(width, x), AtLeast(height, y)));
-          if (hn::AllFalse(d, in_box)) continue;
-          const VI all = hn::Or(hn::Or(edge[0].At(x, y), edge[1].At(x, y)), edge[2].At(x, y));
+          if (kBranch && hn::AllFalse(d, in_box)) continue;
+          const VI place = hn::Or(x, hn::ShiftLeft<16>(y));
+          const VI all = hn::Or(hn::Or(edge[0].At(place), edge[1].At(place)), edge[2].At(place));
           const MI covered = hn::And(in_box, hn::Gt(all, hn::Set(d, -1)));
-          if (hn::AllFalse(d, covered)) continue;
+          if (kBranch && hn::AllFalse(d, covered)) continue;
           Append(covered, numbers, t.left + x, t.top + y, s);
         }
       }
@@ -235,7 +271,7 @@ struct Led {
   HWY_ALIGN int32_t bx[kSize], by[kSize], cx[kSize], cy[kSize], dx[kSize], dy[kSize];
 
   // Hits at..; lanes from `count` on: those of triangle 0.
-  HWY_INLINE Led(const Triangle* triangles, const int32_t* xy, const CoverageList& hits, size_t at,
+  HWY_INLINE Led(const Triangle* triangles, const int32_t* xy, CoverageList& hits, size_t at,
                  size_t count) {
     const D32 du;
     const I32 d;
@@ -258,6 +294,9 @@ struct Led {
     const M32 first = hn::And(ab, ac);
     const M32 second = hn::AndNot(ab, bc);
     const M32 third = hn::Not(hn::Or(first, second));
+    const V32 one = hn::Set(du, 1), two = hn::Set(du, 2);
+    hn::StoreU(hn::IfThenElseZero(hn::Not(first), hn::IfThenElse(third, two, one)), du,
+               hits.lead.data() + at);
     VI cornerx[3], cornery[3];
     for (int k = 0; k < 3; ++k) {
       const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
@@ -394,6 +433,7 @@ void FindCoverage(std::span<const Triangle> triangles, const ProjectedBatch& bat
   Grow(&out->x, most);
   Grow(&out->y, most);
   Grow(&out->depth, most);
+  Grow(&out->lead, most);
   Grow(&out->large, kCoverageBlock + kPadding);
   Grow(&out->wide, kCoverageBlock + kPadding);
   HWY_DYNAMIC_DISPATCH(Cover)

@@ -33,9 +33,9 @@ void ProjectVertices(const Projection& to, std::span<const StreamVertex> vertice
                      ProjectedBatch* out);
 
 // What micro-triangles cover. Hit i: triangles[triangle] covers the sample at (x, y), which is entry
-// `sample` of the tile buffer, at `depth`.
+// `sample` of the tile buffer, at `depth`; its corner `lead` leads.
 struct CoverageList {
-  std::vector<uint32_t> triangle, sample;
+  std::vector<uint32_t> triangle, sample, lead;
   std::vector<int32_t> x, y;
   std::vector<double> depth;
   size_t hits = 0;
@@ -44,7 +44,7 @@ struct CoverageList {
   std::vector<uint32_t> wide;  // of one to two pixels; while covering
 
   size_t Bytes() const {
-    return triangle.capacity() * (4 * sizeof(uint32_t) + sizeof(double)) +
+    return triangle.capacity() * (5 * sizeof(uint32_t) + sizeof(double)) +
            (large.capacity() + wide.capacity()) * sizeof(uint32_t);
   }
 };
@@ -56,7 +56,7 @@ inline constexpr size_t kCoverageBlock = 256;
 void FindCoverage(std::span<const Triangle> triangles, const ProjectedBatch& batch,
                   const TileRect& tile, std::span<const SamplePlace> places, CoverageList* out);
 
-// Fills depth (triangle_setup.h's DepthPlane, bit for bit).
+// Fills depth and lead (triangle_setup.h's DepthPlane, bit for bit).
 void FindDepths(std::span<const Triangle> triangles, const ProjectedBatch& batch,
                 CoverageList* hits);
 

@@ -28,11 +28,9 @@ void Film::StartTile(const TileRect& tile) {
   for (auto& channel : row_) channel.resize(count + kPadding);
 }
 
-// The plane's depth at sample `at` of the row.
-double Film::SeaDepth(int32_t at, int32_t y) const {
-  const auto samples = static_cast<int32_t>(places_.size());
-  const SamplePlace& place = places_[static_cast<size_t>(at % samples)];
-  return setup_->sea->At(static_cast<double>((tile_.x + at / samples) * kFixedOne + place.x),
+// The plane's depth at a sample of pixel x of the tile.
+double Film::SeaDepth(int32_t x, int32_t y, const SamplePlace& place) const {
+  return setup_->sea->At(static_cast<double>((tile_.x + x) * kFixedOne + place.x),
                          static_cast<double>(y * kFixedOne + place.y));
 }
 
@@ -57,10 +55,16 @@ Film::Behind Film::BehindRow(int32_t y) const {
 Film::Span Film::DrawnPixels(const TileBuffer& drawn, int32_t y) const {
   const auto samples = static_cast<int32_t>(places_.size());
   const uint32_t* hit = drawn.hit() + drawn.Index(tile_.x, y, 0);
-  int32_t first = 0, end = tile_.width * samples;
-  while (first < end && hit[first] == kNoHit) ++first;
-  while (end > first && hit[end - 1] == kNoHit) --end;
-  return {first / samples, (end + samples - 1) / samples};
+  // A pixel at a time: no hit has all bits set.
+  const auto empty = [&](int32_t x) {
+    uint32_t all = kNoHit;
+    for (int32_t s = 0; s < samples; ++s) all &= hit[x * samples + s];
+    return all == kNoHit;
+  };
+  Span span = {0, tile_.width};
+  while (span.first < span.end && empty(span.first)) ++span.first;
+  while (span.end > span.first && empty(span.end - 1)) --span.end;
+  return span;
 }
 
 // Pixels whose samples all see the same.
@@ -81,9 +85,8 @@ void Film::FillPlain(int32_t y, Span pixels, Behind behind, float* out) {
   }
   sea_.Resize(static_cast<size_t>(pixels.end - pixels.first));
   sea_.size = 0;
-  const auto per_pixel = static_cast<int32_t>(samples);
   for (int32_t x = pixels.first; x < pixels.end; ++x) {
-    AddSeaPixel(x, y, SeaDepth(x * per_pixel, y));
+    AddSeaPixel(x, y, SeaDepth(x, y, places_[0]));
   }
   ShadeSea();
   for (int k = 0; k < 3; ++k) {
@@ -95,16 +98,26 @@ void Film::FillPlain(int32_t y, Span pixels, Behind behind, float* out) {
 }
 
 // The sea was laid under everything else before it was drawn: where no hit is, it shows.
-void Film::FindOwners(int32_t y, Span samples, const TileBuffer* drawn) {
+void Film::FindOwners(int32_t y, Span pixels, const TileBuffer* drawn) {
   const uint32_t* hit =
       drawn != nullptr ? drawn->hit() + drawn->Index(tile_.x, y, 0) : nullptr;
   const bool one = setup_->objects.size() == 1;
-  for (int32_t at = samples.first; at < samples.end; ++at) {
-    uint32_t& owner = owner_[static_cast<size_t>(at)];
-    if (hit != nullptr && hit[at] != kNoHit) {
-      owner = one ? 0 : drawn->record(hit[at]).object;
-    } else {
-      owner = setup_->sea && setup_->sea->Seen(SeaDepth(at, y)) ? kSea : kBackground;
+  sea_.Resize(static_cast<size_t>(pixels.end - pixels.first));
+  sea_.size = 0;
+  size_t at = static_cast<size_t>(pixels.first) * places_.size();
+  for (int32_t x = pixels.first; x < pixels.end; ++x) {
+    bool wet = false;
+    for (const SamplePlace& place : places_) {
+      uint32_t& owner = owner_[at];
+      if (hit != nullptr && hit[at] != kNoHit) {
+        owner = one ? 0 : drawn->record(hit[at]).object;
+      } else {
+        const double depth = setup_->sea ? SeaDepth(x, y, place) : 0;
+        owner = setup_->sea && setup_->sea->Seen(depth) ? kSea : kBackground;
+        if (owner == kSea && !wet) AddSeaPixel(x, y, depth);
+        wet |= owner == kSea;
+      }
+      ++at;
     }
   }
 }
@@ -125,6 +138,7 @@ void Film::CollectHits(const TileBuffer& drawn, int32_t y, Span samples, int32_t
     hits_.y[size] = top + drawn.sample_y()[at];
     hits_.depth[size] = drawn.depth()[row + at];
     hit_of_[size] = drawn.hit()[row + at];
+    __builtin_prefetch(&drawn.record(hit_of_[size]));  // read when the row is complete
     ++size;
   }
   hits_.Resize(size);
@@ -224,25 +238,17 @@ void Film::ShadeSea() {
 void Film::FillSamples(int32_t y, Span pixels, const TileBuffer* drawn, float* out) {
   const auto per_pixel = static_cast<int32_t>(places_.size());
   const Span samples = {pixels.first * per_pixel, pixels.end * per_pixel};
-  FindOwners(y, samples, drawn);
-  sea_.Resize(static_cast<size_t>(pixels.end - pixels.first));
-  sea_.size = 0;
-  for (int32_t x = pixels.first; x < pixels.end; ++x) {
-    for (int32_t at = x * per_pixel; at < (x + 1) * per_pixel; ++at) {
-      if (owner_[static_cast<size_t>(at)] != kSea) continue;
-      AddSeaPixel(x, y, SeaDepth(at, y));
-      break;
-    }
-  }
+  FindOwners(y, pixels, drawn);
   if (sea_.size > 0) ShadeSea();
-  size_t sea = 0;
   for (int32_t at = samples.first; at < samples.end; ++at) {
-    const uint32_t owner = owner_[static_cast<size_t>(at)];
-    if (owner == kBackground) {
-      for (int k = 0; k < 3; ++k) row_[k][static_cast<size_t>(at)] = background_[k];
-    } else if (owner == kSea) {
-      while (sea_.place[sea] != static_cast<uint32_t>(at / per_pixel)) ++sea;
-      for (int k = 0; k < 3; ++k) row_[k][static_cast<size_t>(at)] = sea_.color[k][sea];
+    if (owner_[static_cast<size_t>(at)] != kBackground) continue;
+    for (int k = 0; k < 3; ++k) row_[k][static_cast<size_t>(at)] = background_[k];
+  }
+  for (size_t i = 0; i < sea_.size; ++i) {
+    const size_t first = sea_.place[i] * places_.size();
+    for (size_t at = first; at < first + places_.size(); ++at) {
+      if (owner_[at] != kSea) continue;
+      for (int k = 0; k < 3; ++k) row_[k][at] = sea_.color[k][i];
     }
   }
   for (int32_t at = samples.first; drawn != nullptr && at < samples.end; ++at) {

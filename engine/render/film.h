@@ -37,11 +37,11 @@ class Film {
   Span DrawnPixels(const TileBuffer& drawn, int32_t y) const;
   void FillPlain(int32_t y, Span pixels, Behind behind, float* out);
   void FillSamples(int32_t y, Span pixels, const TileBuffer* drawn, float* out);
-  void FindOwners(int32_t y, Span samples, const TileBuffer* drawn);
+  void FindOwners(int32_t y, Span pixels, const TileBuffer* drawn);
   void CollectHits(const TileBuffer& drawn, int32_t y, Span samples, int32_t first);
   void ShadeObject(const TileBuffer& tile, uint32_t object);
   void ShadeSea();
-  double SeaDepth(int32_t at, int32_t y) const;
+  double SeaDepth(int32_t x, int32_t y, const SamplePlace& place) const;
   void AddSeaPixel(int32_t x, int32_t y, double depth);
   void InterpolateCorners(const TileBuffer& tile, size_t i, uint32_t hit,
                           const Attributes& attributes);

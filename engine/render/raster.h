@@ -48,7 +48,7 @@ class Raster {
  private:
   // Triangles first.. of the batch, at most kCoverageBlock.
   void DrawBlock(const StreamBatch& batch, size_t first, size_t count);
-  uint32_t AddHit(const StreamBatch& batch, const Triangle& triangle);
+  uint32_t AddHit(const StreamBatch& batch, const Triangle& triangle, uint32_t lead);
   void DrawWhole(const StreamBatch& batch, const Triangle& triangle);
   void DrawClipped(const StreamBatch& batch, const Triangle& triangle);
   void DrawStroke(const StreamBatch& batch, const std::array<uint32_t, 2>& segment);

@@ -1,14 +1,12 @@
 // Micro-triangles: coverage and depths come from the SIMD kernels; here the nearest stay.
 #include "engine/render/raster.h"
 #include "engine/render/raster_source.h"
-#include "engine/render/triangle_setup.h"
 
 namespace fjord {
 
-uint32_t Raster::AddHit(const StreamBatch& batch, const Triangle& triangle) {
-  const int lead = LeadingCorner(projected_.At(triangle[0]), projected_.At(triangle[1]),
-                                 projected_.At(triangle[2]));
-  const uint32_t a = triangle[lead], b = triangle[(lead + 1) % 3], c = triangle[(lead + 2) % 3];
+uint32_t Raster::AddHit(const StreamBatch& batch, const Triangle& triangle, uint32_t lead) {
+  constexpr size_t kNext[] = {0, 1, 2, 0, 1};
+  const uint32_t a = triangle[lead], b = triangle[kNext[lead + 1]], c = triangle[kNext[lead + 2]];
   HitRecord record = MakeRecord(batch, a, b, c);
   if (attributes_.any()) {
     record.corners = tile_->AddCorners(
@@ -34,7 +32,7 @@ void Raster::DrawBlock(const StreamBatch& batch, size_t first, size_t count) {
       if (!tile_->WinsTie(sample, object_, tie)) continue;
     }
     uint32_t& hit = hit_of_[coverage_.triangle[i]];
-    if (hit == kNoHit) hit = AddHit(batch, triangle);
+    if (hit == kNoHit) hit = AddHit(batch, triangle, coverage_.lead[i]);
     depths[sample] = depth;
     tile_->hit()[sample] = hit;
   }

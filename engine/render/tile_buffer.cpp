@@ -52,11 +52,11 @@ bool TileBuffer::Hides(int32_t left, int32_t top, int32_t right, int32_t bottom,
   return true;
 }
 
-// At least a third of them goes each time, or a quarter as many as there are samples: compaction
-// costs a constant per record on average.
+// No more can stay than there are samples, and half as many are made from one compaction to the
+// next: it costs a constant per record on average.
 void TileBuffer::LimitRecords(size_t kept) {
   const size_t samples = hit_.size();
-  record_limit_ = kept + std::max({kept / 2, samples / 4, size_t{4096}});
+  record_limit_ = std::max({samples, kept + samples / 2, size_t{4096}});
   records_.reserve(record_limit_ + kLargestBatch);
 }
 
