@@ -174,6 +174,18 @@ TEST(CurveDirectionTest, S13_NewVerticesKeepTheMeanOfTheirEnds) {
   }
 }
 
+TEST(CurveDirectionTest, S13_InputVerticesHaveTheMeanOfTheirEdges) {
+  const CoarseShape outline = OutlineCurve();
+  const CurveChain chain = *MakeCurveChain(outline, test::SettingsOf("curve", .1));
+  const auto right = [&](size_t i) {
+    const Vec3 along = outline.now[(i + 1) % 12] - outline.now[i % 12];
+    return Unit(Vec3(along.y, -along.x, 0));
+  };
+  for (size_t i = 0; i < 12; ++i) {
+    EXPECT_LT(Length(chain.vertices[i].direction - Unit(right(i + 11) + right(i))), 1e-14) << i;
+  }
+}
+
 TEST(CurveDirectionTest, S10_UpMovesAlongZOnly) {
   const WeldedShape shape =
       Weld(*Prepare(OutlineCurve(), Rule(Direction::kUp, Variant::kFixed, .05, Law::kAffine)));

@@ -180,6 +180,21 @@ TEST(CurveTest, S6_AdditionsAreStationary) {
   }
 }
 
+// Nor along one edge alone, where lattices in step with the dyadic places would favour one phase.
+TEST(CurveTest, S6_AdditionsAreStationaryAlongOneEdge) {
+  for (uint64_t seed = 1; seed <= 8; ++seed) {
+    FractalSettings s = Fixed(.5, 1.5 / 65536);
+    s.seed = seed;
+    s.increments = Increments::kAdditions;
+    const std::vector<double> y = Heights(Weld(*Prepare(StraightCurve(), s)));
+    double sums[2] = {0, 0};
+    for (size_t i = 0; i + 2 < y.size(); ++i) {
+      sums[i % 2] += (y[i + 2] - y[i]) * (y[i + 2] - y[i]);
+    }
+    EXPECT_NEAR(sums[1] / sums[0], 1, .02) << seed;
+  }
+}
+
 // Not only at the finest steps: quarter of the edge against quarter, over many edges.
 TEST(CurveTest, S6_AdditionsAreStationaryAtEveryScale) {
   CoarseShape chain = StraightCurve();
