@@ -299,6 +299,18 @@ TEST(CoastTest, C16a_MovingTheShapeMovesNoDetail) {
   }
 }
 
+// Nor does its size, nor which way a midpoint goes just now, change what is cut and how.
+TEST(CoastTest, C16a_TheTreeIsTheSameInEveryFrame) {
+  for (const FractalSettings& s : ManySettings()) {
+    CoarseShape squeezed = OutlineMesh();
+    for (Vec3& p : squeezed.now) {
+      p = Vec3(2 * p.x, .1 * p.y, 0);
+    }
+    EXPECT_EQ(Weld(*Prepare(squeezed, s)).identity, Weld(*Prepare(OutlineMesh(), s)).identity)
+        << LawName(s.law) << DirectionName(s.direction) << VariantName(s.variant) << s.H;
+  }
+}
+
 TEST(CoastTest, S14_HalvingEpsilonKeepsTheCoast) {
   const WeldedShape coarse = Weld(*Prepare(OutlineMesh(), Coast(.6, .06)));
   const WeldedShape fine = Weld(*Prepare(OutlineMesh(), Coast(.6, .03)));

@@ -237,6 +237,16 @@ TEST(CurveDirectionTest, C16a_MovingTheShapeMovesNoDetail) {
   }
 }
 
+// Whatever becomes of the shape, its rest pose says what is halved.
+TEST(CurveDirectionTest, C16a_TheTreeIsTheSameInEveryFrame) {
+  const auto s = Rule(Direction::kVertex, Variant::kPerturbed, .02);
+  CoarseShape squeezed = OutlineCurve();
+  for (Vec3& p : squeezed.now) {
+    p = Vec3(2 * p.x, .1 * p.y, 0);
+  }
+  EXPECT_EQ(Weld(*Prepare(squeezed, s)).identity, Weld(*Prepare(OutlineCurve(), s)).identity);
+}
+
 // Stretch: half the size now, half the offsets; the same tree.
 TEST(CurveDirectionTest, S25_OffsetsFollowTheSizeOfTheShape) {
   auto s = Rule(Direction::kEdge, Variant::kFixed, .02, Law::kAffine);

@@ -116,6 +116,22 @@ TEST(SwingTest, S25_ACoastHasTheSameTrianglesAndNoneJumps) {
   }
 }
 
+// Offsets that stay as they are while the edges below them grow: cuts become flatter and flatter.
+TEST(SwingTest, S25_AGrowingCoastHasTheSameTrianglesAndNoneJumps) {
+  const auto grown = [](double size) {
+    CoarseShape shape = OutlineMesh();
+    for (Vec3& p : shape.now) p = p * size;
+    return shape;
+  };
+  for (const Direction direction : {Direction::kEdge, Direction::kVertex}) {
+    auto s = Settings("coast", direction, Variant::kCurrent, Law::kAffine, .5, .1);
+    s.stretch = false;
+    const Swing swing = Watch(s, grown, .25, 1e-3, 1000);
+    EXPECT_TRUE(swing.same);
+    EXPECT_LT(swing.proportion, 20) << DirectionName(direction);
+  }
+}
+
 // Two triangles that turn about the axis y, their edges along x upright at a quarter turn.
 CoarseShape Door(double angle) {
   CoarseShape shape;
