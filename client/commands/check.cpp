@@ -62,6 +62,7 @@ Json ObjectJson(const ObjectCheck& object) {
           {"coarse_step", object.coarse_step},
           {"proportion", object.proportion},
           {"worst_frame", object.worst_frame},
+          {"pops", object.pops},
           {"verdict", object.verdict}};
 }
 

@@ -6,11 +6,17 @@
 #include <utility>
 
 #include "engine/animation/coarse.h"
+#include "engine/base/clamp.h"
 
 namespace fjord {
 namespace {
 
 constexpr int kMostCoarsenings = 60;
+
+// Looking closer: this many halvings of the time between two frames, always of the half with the
+// larger step. Of an even movement about 1/64 of the step is left then, of a jump all of it.
+constexpr int kHalvings = 6;
+constexpr double kShareOfAJump = .25;
 
 // One frame of one object, as far as the check goes.
 struct Made {
@@ -54,6 +60,15 @@ std::vector<Vec3> CoarsePoints(const v1::FrameObject& object) {
   return points;
 }
 
+// Halfway between two frames of an object as far as its shape goes; all else is the later one's.
+v1::FrameObject Halfway(const v1::FrameObject& a, const v1::FrameObject& b) {
+  v1::FrameObject middle = b;
+  for (int i = 0; i < middle.point_size(); ++i) {
+    middle.set_point(i, (a.point(i) + b.point(i)) * .5);
+  }
+  return middle;
+}
+
 bool SameSettings(const v1::FrameObject& a, const v1::FrameObject& b) {
   return a.fractal().SerializeAsString() == b.fractal().SerializeAsString();
 }
@@ -84,17 +99,23 @@ class ObjectChecker {
 
   ObjectCheck Finish() {
     check_.coarser = coarser_;
-    const std::string frames = "frames " + std::to_string(check_.worst_frame) + " and " +
-                               std::to_string(check_.worst_frame + 1);
+    const auto frames = [](uint32_t frame) {
+      return "frames " + std::to_string(frame) + " and " + std::to_string(frame + 1);
+    };
     if (check_.identities_change > 0 && !check_.by_frame) {
       check_.good = false;
       check_.verdict = "vertices come or go at frame " + std::to_string(check_.identities_change);
-    } else if (check_.proportion > kStepProportion) {
+    } else if (check_.pops > 0) {
       check_.good = false;
-      check_.verdict = "a vertex pops between " + frames;
+      check_.verdict = "a vertex pops between " + frames(check_.pops);
     } else if (check_.identities_change > 0) {
       check_.verdict = "split by frame: vertices come and go from frame " +
                        std::to_string(check_.identities_change) + " on, as asked for";
+    } else if (check_.proportion > kStepProportion) {
+      check_.verdict = "the same vertices in every frame, none jumps; between " +
+                       frames(check_.worst_frame) + " one moves " +
+                       std::to_string(RoundToInt32(check_.proportion)) +
+                       " times as far as the shape";
     } else {
       check_.verdict = "the same vertices in every frame, none steps out of proportion";
     }
@@ -122,18 +143,22 @@ class ObjectChecker {
 
   Result<> Compare(uint32_t frame, const v1::FrameObject& object, const Made& made) {
     const double coarse = LargestStep(CoarsePoints(before_->object), CoarsePoints(object));
-    double step = 0;
-    if (SameSettings(before_->object, object)) {
-      step = LargestStep(before_->made.points, made.points);
-    } else {
-      v1::FrameObject same = object;
+    v1::FrameObject same = object;
+    std::vector<Vec3> points = made.points;
+    if (!SameSettings(before_->object, object)) {
       *same.mutable_fractal() = before_->object.fractal();
       Result<Made> other = fjord::Make(Coarsened(same, coarser_), options_.most_points);
       if (!other) return other.error();
       if (other->identity != before_->made.identity) return {};  // split LENGTH
-      step = LargestStep(before_->made.points, other->points);
+      points = std::move(other->points);
     }
+    const double step = LargestStep(before_->made.points, points);
     const double proportion = coarse > 0 ? step / coarse : step > 0 ? 1e300 : 0;
+    if (proportion > kStepProportion && check_.pops == 0) {
+      const Result<bool> jumps = Jumps(same, std::move(points));
+      if (!jumps) return jumps.error();
+      if (*jumps) check_.pops = frame - 1;
+    }
     if (proportion > check_.proportion || check_.worst_frame == 0) {
       check_.proportion = proportion;
       check_.worst_frame = frame - 1;
@@ -141,6 +166,26 @@ class ObjectChecker {
       check_.coarse_step = coarse;
     }
     return {};
+  }
+
+  // Does the step from the frame before to `after` stay when the two come closer?
+  Result<bool> Jumps(v1::FrameObject after, std::vector<Vec3> after_points) const {
+    v1::FrameObject before = before_->object;
+    std::vector<Vec3> before_points = before_->made.points;
+    const double whole = LargestStep(before_points, after_points);
+    double step = whole;
+    for (int i = 0; i < kHalvings; ++i) {
+      v1::FrameObject middle = Halfway(before, after);
+      Result<Made> made = fjord::Make(Coarsened(middle, coarser_), options_.most_points);
+      if (!made) return made.error();
+      if (made->identity != before_->made.identity) return false;  // split LENGTH
+      const double first = LargestStep(before_points, made->points);
+      const double second = LargestStep(made->points, after_points);
+      step = std::max(first, second);
+      (first >= second ? after : before) = std::move(middle);
+      (first >= second ? after_points : before_points) = std::move(made->points);
+    }
+    return step > kShareOfAJump * whole;
   }
 
   const AnimationCheckOptions& options_;

@@ -3,11 +3,11 @@
 // For every object with a fractal, every frame's shape is made whole (as coarse as it takes to stay
 // within most_points; fineness does not change what is checked), in object space. Asked of each:
 // - the same identities in every frame (under split SHOT), so that no vertex comes or goes;
-// - between neighbouring frames, at unchanged settings, no vertex steps further than
-// kStepProportion
-//   times the largest step of a coarse vertex: detail rides with the shape. Settings that tracks
-//   change move vertices evenly; their part is left out by making the later frame with the earlier
-//   frame's settings.
+// - between neighbouring frames, at unchanged settings, no vertex jumps: detail rides with the
+//   shape. A vertex that steps further than kStepProportion times the largest step of a coarse
+//   vertex is looked at closer, at times between the two frames: what jumps does so at one of them,
+//   what moves steeply takes smaller steps. Settings that tracks change move vertices evenly; their
+//   part is left out by making the later frame with the earlier frame's settings.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,7 @@ namespace fjord {
 
 // A midpoint follows the mean of its coarse neighbours, and its offset turns and grows with the
 // shape around it; fixed directions stay below 2 even from flat to steep and rough. A vertex that
-// pops jumps by its offset however small the coarse step is, so a longer shot shows it more
-// clearly.
+// pops jumps by its offset however small the coarse step is.
 inline constexpr double kStepProportion = 4;
 
 struct AnimationCheckOptions {
@@ -40,6 +39,7 @@ struct ObjectCheck {
   double coarse_step = 0;          // of a coarse vertex, between the same frames
   double proportion = 0;           // largest over the shot of step / largest coarse step
   uint32_t worst_frame = 0;        // where that is: from this frame to the next
+  uint32_t pops = 0;               // first frame after which a vertex jumps, or 0
   bool good = true;
   std::string verdict;  // a sentence
 };

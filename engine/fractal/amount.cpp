@@ -99,4 +99,11 @@ Result<double> SimilarFactor(double H, int uniforms) {
   return .5 * (low + high);
 }
 
+double HeldBackH(double H) {
+  const double d = 1 - H;
+  const double fitted = H - 1.7 * d * d;
+  const double rest = .06 + .4963 * (H - .06);  // so that the knob keeps turning
+  return fitted > rest ? fitted : rest;
+}
+
 }  // namespace fjord

@@ -17,6 +17,11 @@ namespace fjord {
 // reach.
 inline constexpr double kSimilarClamp = .49;
 
+// A direction that is made square to a segment is brought to unit length where at least this much
+// of it is left, and below that in proportion: a segment that swings past it carries its midpoint
+// through its own middle, where unit length alone would make it jump to the other side (S25).
+inline constexpr double kLeastSquare = .25;
+
 // 2^-H sqrt(1 - 2^(2H-2)); 0 at H = 1.
 double AffineConstant(double H);
 
@@ -29,5 +34,9 @@ double ShihDeviation(double sigma, double H, int i);
 // r of the similar law for Gaussians of n uniforms. kInvalid where D = 2 - H cannot be reached with
 // the clamp (H below about .06).
 Result<double> SimilarFactor(double H, int uniforms);
+
+// The H at which the similar law makes coasts of triangles that measure as `H`, in spite of what is
+// held back (coast.h): fitted to rulers for D = 2 - H up to 1.4; beyond, coasts stay smoother.
+double HeldBackH(double H);
 
 }  // namespace fjord

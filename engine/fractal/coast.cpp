@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "engine/fractal/amount.h"
 #include "engine/fractal/coast_batch.h"
 #include "engine/fractal/coast_pieces.h"
 #include "engine/fractal/registry.h"
@@ -15,9 +16,11 @@ namespace {
 // leaves it a half.
 constexpr double kLeastShare = .0625;
 
-// An outward cut seals its inside off (four triangles) where the sealed apex leaves the halves this
-// much room, in squares of their own lengths: that is from offsets of a quarter segment on.
-constexpr double kRoomToSeal = .4;
+// The apex of an outward cut's halves lies on the way from the unmoved midpoint to the old apex:
+// kNearest of it where the cut rises by kFullRise of the segment or more, further in where it rises
+// less, so that the halves have room; never nearer than kNearest to either end.
+constexpr double kNearest = .0625;
+constexpr double kFullRise = .2;
 
 // Twice the area of a, b, c, counted positive where they turn left about n.
 double Turn(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& n) {
@@ -32,10 +35,10 @@ struct Node {
   Vec3 normal_e;
 };
 
-// What a cut makes: the displaced point, and the undisplaced one where that becomes the apex.
+// What a cut makes: the displaced point, and the halves' new apex where its inside is sealed off.
 struct Cut {
   CoastVertex p;
-  CoastVertex m;
+  CoastVertex apex;
   bool sealed = false;
 };
 
@@ -59,13 +62,15 @@ double ShareThatFits(const Vec3& s, const Vec3& e, const Vec3& o, const Vec3& mi
   return share;
 }
 
-// Room that the halves (s,p) and (p,e) have under an apex: the smaller area over squared length.
-double Room(const Vec3& s, const Vec3& p, const Vec3& e, const Vec3& apex, const Vec3& plane) {
-  const double first = Turn(s, p, apex, plane) / glm::dot(p - s, p - s);
-  const double second = Turn(p, e, apex, plane) / glm::dot(e - p, e - p);
-  return first < second ? first : second;
+// The share of the way from `middle` to o where an outward cut to p seals off.
+double ApexShare(const Vec3& s, const Vec3& e, const Vec3& p, const Vec3& plane) {
+  const double rise = Turn(s, p, e, plane) / glm::dot(e - s, e - s);
+  const double share = 1 - rise / kFullRise;
+  return share > 1 - kNearest ? 1 - kNearest : (share > kNearest ? share : kNearest);
 }
 
+// Which of the two cuts is made follows from the draw alone, and places are continuous in the
+// places of s, e and o: so the triangles are the same in every frame and nothing jumps.
 Cut MakeCut(const LineRules& rules, const Node& node, const LineFrame& frame,
             const LineRules::Size& size) {
   const LineHalf half = rules.Halve(node.edge, frame, size);
@@ -75,19 +80,15 @@ Cut MakeCut(const LineRules& rules, const Node& node, const LineFrame& frame,
   const Vec3& p = half.vertex.position;
   Cut cut;
   cut.p = {half.vertex, Unit(node.normal_s + node.normal_e, node.normal_s), true};
-  const bool outward = Turn(s, p, e, frame.plane) > 1e-12 * glm::dot(e - s, e - s);
-  if (outward) {
-    const double sealed = Room(s, p, e, half.middle, frame.plane);
-    cut.sealed = sealed >= kRoomToSeal || sealed > Room(s, p, e, o, frame.plane);
-  }
+  cut.sealed = half.draw >= 0;
+  cut.apex = node.o;
   if (cut.sealed) {
-    cut.m = cut.p;
-    cut.m.coast = false;
-    cut.m.line.position = half.middle;
-    cut.m.line.id = {DrawBits(half.vertex.id.lo, 31), Mix64(half.vertex.id.hi ^ 31)};
-    return cut;
+    cut.apex = cut.p;
+    cut.apex.coast = false;
+    cut.apex.line.position = half.middle + (o - half.middle) * ApexShare(s, e, p, frame.plane);
+    cut.apex.line.id = {DrawBits(half.vertex.id.lo, 31), Mix64(half.vertex.id.hi ^ 31)};
   }
-  const double share = ShareThatFits(s, e, o, half.middle, p, frame.plane);
+  const double share = ShareThatFits(s, e, cut.apex.line.position, half.middle, p, frame.plane);
   if (share < 1) {
     cut.p.line.position = half.middle + half.vertex.direction * (half.offset * share);
   }
@@ -236,13 +237,13 @@ class PreparedCoast : public PreparedFractal {
       const Cut cut = MakeCut(rules_, node, piece.frame, size);
       if (cut.sealed) {
         stats->triangles += 2;
-        if (!take(Start(node), cut.m, node.o) || !take(cut.m, End(node), node.o)) {
+        if (!take(Start(node), cut.apex, node.o) || !take(cut.apex, End(node), node.o)) {
           return false;
         }
       }
-      const CoastVertex& apex = cut.sealed ? cut.m : node.o;
-      stack.push_back({rules_.Second(node.edge, cut.p.line), apex, cut.p.normal, node.normal_e});
-      stack.push_back({rules_.First(node.edge, cut.p.line), apex, node.normal_s, cut.p.normal});
+      stack.push_back(
+          {rules_.Second(node.edge, cut.p.line), cut.apex, cut.p.normal, node.normal_e});
+      stack.push_back({rules_.First(node.edge, cut.p.line), cut.apex, node.normal_s, cut.p.normal});
     }
     return true;
   }
@@ -262,7 +263,10 @@ Result<std::unique_ptr<PreparedFractal>> PrepareCoast(CoarseShape shape,
   if (!errors.empty()) {
     return errors.front();
   }
-  const FractalSettings resolved = ResolveSettings(method, settings);
+  FractalSettings resolved = ResolveSettings(method, settings);
+  if (resolved.law == Law::kSimilar) {
+    resolved.H = HeldBackH(resolved.H);
+  }
   Result<LineRules> rules = LineRules::Make(resolved, view);
   if (!rules.ok()) {
     return rules.error();

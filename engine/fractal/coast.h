@@ -4,12 +4,12 @@
 //
 // Normalising: a triangle with two or three border edges is first cut at its centroid, so that no
 // piece has more than one. Triangle (s,e,o), border edge s-e, midpoint m, displaced p:
-//   outward   keep (s,m,o) and (m,e,o); go on with (s,p) and (p,e), apex m
+//   outward   keep (s,q,o) and (q,e,o); go on with (s,p) and (p,e), apex q
 //   inward    go on with (s,p) and (p,e), apex o
-// [N: small outward steps keep the apex o too, where it leaves the halves more room; and p is held
-// back so that both halves keep a sixteenth of the area. Otherwise the coast would soon be shut in
-// between its own triangles: of D 1.30 asked, 1.18 was measured as printed, 1.22 now. The method
-// "curve" has nothing to hold back.]
+// [N: q is m itself as printed; here it lies further in, the less p rises, so that the halves keep
+// room to move inward. The draw alone says which of the two it is, so that a moving coast has the
+// same triangles in every frame. p is held back so that both halves keep a sixteenth of the area;
+// the similar law is solved with that in place (HeldBackH).]
 //
 // Interior edges stay where they are. A root is a triangle, in order. Prepared objects are
 // immutable and shared freely by threads.

@@ -80,11 +80,11 @@ std::vector<CoastPiece> MakePieces(std::span<const CoastVertex, 3> corners,
   const auto piece = [&](size_t k, const CoastVertex& apex) {
     CoastPiece p{corners[k], corners[(k + 1) % 3], apex, border_rest2[k] >= 0, {}, border_rest2[k]};
     const Vec3 along = p.e.line.position - p.s.line.position;
-    p.frame = {plane, RightNormal(along, plane, Vec3(0))};
+    p.frame = {plane, RightNormal(along, plane)};
     for (CoastVertex* end : {&p.s, &p.e}) {
       // Into this triangle's plane, so that all that grows from the edge stays in it.
       const Vec3 d = end->line.direction;
-      end->line.direction = Unit(d - plane * glm::dot(d, plane), p.frame.normal);
+      end->line.direction = Softened(d - plane * glm::dot(d, plane));
     }
     return p;
   };
@@ -124,7 +124,7 @@ Result<CoastMesh> MakeCoastMesh(const CoarseShape& shape, const FractalSettings&
     const bool border = edge.use_count == 1;
     const Triangle& t = shape.triangles[use.face];
     const Vec3 plane = TriangleNormal(shape.now[t[0]], shape.now[t[1]], shape.now[t[2]]);
-    const Vec3 right = RightNormal(use.forward ? now : now * -1.0, plane, Vec3(0));
+    const Vec3 right = RightNormal(use.forward ? now : now * -1.0, plane);
     for (const uint32_t v : {edge.a, edge.b}) {
       if (rest2 > 0) {
         stretch[v] += std::sqrt(glm::dot(now, now) / rest2);
@@ -143,7 +143,7 @@ Result<CoastMesh> MakeCoastMesh(const CoarseShape& shape, const FractalSettings&
     CoastVertex v;
     v.line.position = shape.now[i];
     v.line.id = CoarseIdentity(settings.seed, i);
-    v.line.direction = Unit(outward[i]);
+    v.line.direction = Softened(outward[i] * .5);
     v.line.stretch = StretchOf(stretch[i], stretched[i]);
     const Vec3 eye = shape.rest[i] - settings.fineness.eye;
     v.line.eye_distance2 = static_cast<float>(glm::dot(eye, eye));

@@ -31,8 +31,7 @@ void MakeFrames(const CoarseShape& shape, CurveChain* chain) {
   const size_t edges = chain->closed ? p.size() : p.size() - 1;
   for (size_t i = 0; i < edges; ++i) {
     const size_t next = i + 1 < p.size() ? i + 1 : 0;
-    const Vec3 any = Unit(glm::cross(Vec3(1, 0, 0), plane), Unit(glm::cross(Vec3(0, 1, 0), plane)));
-    chain->frames.push_back({plane, RightNormal(p[next] - p[i], plane, any)});
+    chain->frames.push_back({plane, RightNormal(p[next] - p[i], plane)});
     const Vec3 rest = shape.rest[next] - shape.rest[i];
     chain->rest2.push_back(glm::dot(rest, rest));
   }
@@ -106,7 +105,7 @@ Result<CurveChain> MakeCurveChain(const CoarseShape& shape, const FractalSetting
         ++stretched;
       }
     }
-    v.direction = Unit(normal, chain.frames[has_before ? before : i].normal);
+    v.direction = Softened(normal * .5);
     v.stretch = StretchOf(stretch, stretched);
     const Vec3 eye = shape.rest[i] - settings.fineness.eye;
     v.eye_distance2 = static_cast<float>(glm::dot(eye, eye));

@@ -8,31 +8,29 @@
 namespace fjord {
 namespace {
 
-// Squared sine of the angle under which two lines pass for parallel; what is left of a direction
-// above it is square to the line but for 1e-4.
-constexpr double kParallel = 1e-24;
-
 double Square(double x) { return x * x; }
 
 double Larger(double a, double b) { return a > b ? a : b; }
 
 double Clamped(double x, double limit) { return x > limit ? limit : (x < -limit ? -limit : x); }
 
-// The part of d square to e; `otherwise` where nothing is left.
-Vec3 SquareTo(const Vec3& d, const Vec3& e, const Vec3& otherwise) {
+// The part of d square to e.
+Vec3 SquareTo(const Vec3& d, const Vec3& e) {
   const double length2 = glm::dot(e, e);
-  if (!(length2 > 0)) {
-    return Unit(d, otherwise);
-  }
-  const Vec3 rest = d - e * (glm::dot(d, e) / length2);
-  return glm::dot(rest, rest) > kParallel ? Unit(rest) : otherwise;
+  return length2 > 0 ? d - e * (glm::dot(d, e) / length2) : d;
 }
 
 }  // namespace
 
-Vec3 RightNormal(const Vec3& along, const Vec3& plane, const Vec3& otherwise) {
+Vec3 Softened(const Vec3& d) {
+  const double length = Length(d);
+  return d * (1 / Larger(length, kLeastSquare));
+}
+
+Vec3 RightNormal(const Vec3& along, const Vec3& plane) {
   const Vec3 right = glm::cross(along, plane);
-  return glm::dot(right, right) > kParallel * glm::dot(along, along) ? Unit(right) : otherwise;
+  const double size = Larger(Length(right), kLeastSquare * Length(along));
+  return size > 0 ? right * (1 / size) : Vec3(0);
 }
 
 StreamVertex ToStream(const LineVertex& v) {
@@ -110,26 +108,25 @@ LineRules::Size LineRules::Measure(const LineSegment& s) const {
 
 Vec3 LineRules::Direction(const LineSegment& s, const LineFrame& frame, Identity id) const {
   const Vec3 along = s.b.position - s.a.position;
-  const Vec3 current = RightNormal(along, frame.plane, frame.normal);
   const bool fixed = settings_.variant == Variant::kFixed;
   Vec3 direction;
   if (settings_.direction == Direction::kEdge) {
-    direction = fixed ? frame.normal : current;
+    direction = fixed ? frame.normal : RightNormal(along, frame.plane);
   } else {
-    direction = settings_.direction == Direction::kUp
-                    ? Vec3(0, 0, 1)
-                    : Unit(s.a.direction + s.b.direction, current);
-    direction = fixed ? direction : SquareTo(direction, along, current);
+    const Vec3 kept = settings_.direction == Direction::kUp ? Vec3(0, 0, 1)
+                                                            : (s.a.direction + s.b.direction) * .5;
+    direction = Softened(fixed ? kept : SquareTo(kept, along));
   }
   if (settings_.variant == Variant::kPerturbed) {
+    // A turn: the length stays.
     const Vec3 tangent = Unit(s.b.id < s.a.id ? s.a.position - s.b.position : along);
-    direction = Unit(direction + tangent * (settings_.perturb * TangentDraw(id.lo)), direction);
+    const double u = settings_.perturb * TangentDraw(id.lo);
+    direction = (direction + tangent * (u * Length(direction))) / std::sqrt(1 + u * u);
   }
   return direction;
 }
 
-double LineRules::Offset(const LineSegment& s, Identity id, double stretch) const {
-  const double g = Gaussian(id.lo, static_cast<int>(settings_.uniforms));
+double LineRules::Offset(const LineSegment& s, double g, double stretch) const {
   if (settings_.law == Law::kAffine) {
     return affine_ * exact::Pow(s.rest2, .5 * settings_.H) * stretch * g;
   }
@@ -152,7 +149,8 @@ LineHalf LineRules::Halve(const LineSegment& s, const LineFrame& frame, const Si
   v.eye_distance2 = static_cast<float>(Larger(distance2, 0));
   v.direction = Direction(s, frame, v.id);
   half.middle = (s.a.position + s.b.position) * .5;
-  half.offset = Offset(s, v.id, settings_.stretch ? stretch : 1);
+  half.draw = Gaussian(v.id.lo, static_cast<int>(settings_.uniforms));
+  half.offset = Offset(s, half.draw, settings_.stretch ? stretch : 1);
   if (settings_.split == Split::kAdaptive && size.threshold2 > 0) {
     // The last level grows in with its size on the screen, so nothing pops as the camera moves.
     const double over = std::sqrt(size.length2 / size.threshold2) - 1;

@@ -13,7 +13,7 @@ inline constexpr uint32_t kMaxLineLevel = 40;
 
 struct LineVertex {
   Vec3 position{0};
-  Vec3 direction{0};  // unit
+  Vec3 direction{0};  // unit, or shorter where what it was made from nearly cancels (Softened)
   Identity id;
   float stretch = 1;
   float eye_distance2 = 0;
@@ -31,7 +31,7 @@ struct LineSegment {
   uint32_t level() const { return a.level > b.level ? a.level : b.level; }
 };
 
-// Of an input edge, both unit: the plane its normals lie in, and its own normal.
+// Of an input edge: the plane its normals lie in, unit, and its own normal, softened.
 struct LineFrame {
   Vec3 plane{0, 0, 1};
   Vec3 normal{0};
@@ -41,7 +41,8 @@ struct LineFrame {
 struct LineHalf {
   LineVertex vertex;
   Vec3 middle{0};
-  double offset = 0;
+  double draw = 0;    // the Gaussian: the same in every frame
+  double offset = 0;  // of the draw's sign
 };
 
 class LineRules {
@@ -75,7 +76,7 @@ class LineRules {
   explicit LineRules(const FractalSettings& settings) : settings_(settings) {}
 
   Vec3 Direction(const LineSegment& segment, const LineFrame& frame, Identity id) const;
-  double Offset(const LineSegment& segment, Identity id, double stretch) const;
+  double Offset(const LineSegment& segment, double draw, double stretch) const;
 
   FractalSettings settings_;
   AdaptiveView view_;
@@ -86,8 +87,12 @@ class LineRules {
   std::array<double, kMaxLineLevel> shih_{};
 };
 
-// Right-hand normal of a segment in the plane; `otherwise` where it has no length there.
-Vec3 RightNormal(const Vec3& along, const Vec3& plane, const Vec3& otherwise);
+// d at unit length, or d / kLeastSquare where it is shorter than that: a continuous function of d,
+// so that directions pass through 0 instead of flipping.
+Vec3 Softened(const Vec3& d);
+
+// Right-hand normal of a segment in the plane, softened; 0 where it has no length.
+Vec3 RightNormal(const Vec3& along, const Vec3& plane);
 
 StreamVertex ToStream(const LineVertex& vertex);
 

@@ -155,7 +155,6 @@ HWY_INLINE void Bend(const SurfaceRules& rules, uint32_t level, const Columns& a
   const VF current2 = Dot(e, e);
   const VU id_a = hn::BitCast(du, a.v[6]), id_b = hn::BitCast(du, b.v[6]);
   const MF first = hn::RebindMask(d, hn::Lt(id_a, id_b));
-  MF some;
   if (rules.law == Law::kShih) offset = (hn::Set(d, rules.shih[level]) * g) * hn::Sqrt(current2);
   if (rules.law == Law::kSimilar) {
     offset = ClampedShare(hn::Set(d, rules.similar) * g) * hn::Sqrt(current2);
@@ -163,21 +162,22 @@ HWY_INLINE void Bend(const SurfaceRules& rules, uint32_t level, const Columns& a
   if (rules.variant != Variant::kFixed) {
     const VF along = hn::IfThenElseZero(hn::Gt(current2, zero), Dot(way, e) / current2);
     const Triple square{way.x - e.x * along, way.y - e.y * along, way.z - e.z * along};
-    const Triple turned = UnitOrZero(square, some);
-    way = Select(some, turned, way);
+    const VF left = hn::Sqrt(Dot(square, square));
+    const VF least = hn::Set(d, kLeastSquare);
+    way = Scaled(square, hn::Set(d, 1.0) / hn::IfThenElse(hn::Gt(left, least), left, least));
   }
   if (rules.variant == Variant::kPerturbed) {
     const VF u = hn::Set(d, rules.perturb) * TangentLanes(MixLanes(id_a + id_b));
-    const Triple tangent =
-        Scaled(UnitOrZero(Cross(e, way), some), hn::IfThenElse(first, u, zero - u));
+    const VF share = hn::IfThenElseZero(hn::Gt(current2, zero), u / hn::Sqrt(current2));
+    const Triple tangent = Scaled(Cross(e, way), hn::IfThenElse(first, share, zero - share));
     way = {way.x + tangent.x, way.y + tangent.y, way.z + tangent.z};
   }
   if (rules.coast) {
-    // Horizontal, square to the edge, to the right hand as seen from the smaller identity (S22).
+    // Horizontal, square to the edge, to the right hand as seen from the smaller identity (S22), by
+    // a share of the edge's horizontal length: nothing jumps as an edge swings past the upright.
     const MF is_coast = hn::Gt(coast, zero);
-    const Triple right = UnitOrZero({e.y, zero - e.x, zero}, some);
-    const VF moved = ClampedShare(hn::Set(d, rules.coast_similar) * g) * hn::Sqrt(current2);
-    way = Select(is_coast, right, way);
+    const VF moved = ClampedShare(hn::Set(d, rules.coast_similar) * g);
+    way = Select(is_coast, {e.y, zero - e.x, zero}, way);
     offset = hn::IfThenElse(is_coast, hn::IfThenElse(first, moved, zero - moved), offset);
   }
   if (rules.split == Split::kAdaptive) offset = offset * Fade(rules, a, b, current2);

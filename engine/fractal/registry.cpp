@@ -38,7 +38,7 @@ FractalSettings Defaults(std::string_view name, Law law, Direction direction, Va
 std::span<const MethodInfo> Methods() {
   static const MethodInfo kMethods[] = {
       {.name = "surface",
-       .version = 1,
+       .version = 2,
        .summary = "triangle meshes roughened by midpoint displacement: terrain, planets, any solid",
        .takes = Takes::kTriangles,
        .streams_exactly = true,
@@ -51,7 +51,7 @@ std::span<const MethodInfo> Methods() {
        .additions = false,
        .prepare = PrepareSurface},
       {.name = "coast",
-       .version = 1,
+       .version = 2,
        .summary = "meshes whose border becomes a coastline, cut into triangles inside it",
        .takes = Takes::kTriangles,
        .streams_exactly = true,
@@ -64,7 +64,7 @@ std::span<const MethodInfo> Methods() {
        .additions = false,
        .prepare = PrepareCoast},
       {.name = "curve",
-       .version = 1,
+       .version = 2,
        .summary = "lines roughened by midpoint displacement: coastlines, ridges, charts, cracks",
        .takes = Takes::kCurve,
        .streams_exactly = true,

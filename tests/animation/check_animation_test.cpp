@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/animation/coarse.h"
+#include "engine/fractal/registry.h"
 #include "tests/animation/animate.h"
 
 namespace fjord {
@@ -39,6 +40,41 @@ TEST(CheckAnimationTest, S25_AMovingShapeKeepsItsVerticesAndNothingPops) {
   EXPECT_LT(hill.proportion, kStepProportion);
 }
 
+// An open, bent line, or the hill's border as an outline.
+std::string Bow(double height, bool closed) {
+  return "shape { polyline { point { x: -1 y: -1 } point { x: 1 y: -1.2 } point { x: 1.1 y: 1 } "
+         "point { x: " +
+         std::to_string(-1 + height) + " y: .8 } " + (closed ? "closed: true" : "") + " } }";
+}
+
+// Whatever a method offers: the same vertices in every frame, and none out of proportion.
+TEST(CheckAnimationTest, S25_NoMethodPops) {
+  for (const MethodInfo& method : FractalMethods()) {
+    const bool curve = method.takes == Takes::kCurve;
+    for (const Law law : method.laws) {
+      for (const Direction direction : method.directions) {
+        for (const Variant variant : method.variants) {
+          const std::string words = "law: " + std::string(LawName(law)) +
+                                    " direction: " + std::string(DirectionName(direction)) +
+                                    " variant: " + std::string(VariantName(variant));
+          const auto shape = [&](double height) {
+            return curve ? Bow(height, direction != Direction::kUp) : Hill(height);
+          };
+          const auto animation =
+              Animate("output { frames: 40 }\nobjects { key { frame: 1 " + shape(.05) +
+                      " } key { frame: 40 " + shape(.8) + " } fractal { method: \"" +
+                      std::string(method.name) + "\" H: .5 epsilon: .05 " + words + " } }\n");
+          const Result<AnimationCheck> check = CheckAnimation(*animation);
+          ASSERT_TRUE(check.ok()) << check.error().ToString();
+          EXPECT_TRUE(check->good)
+              << method.name << " " << words << ": " << check->objects[0].verdict << " "
+              << check->objects[0].proportion;
+        }
+      }
+    }
+  }
+}
+
 TEST(CheckAnimationTest, W2_TrackedSettingsAreNotPopping) {
   const auto animation = Animate(
       Rising("method: \"surface\" epsilon: .1") +
@@ -66,6 +102,17 @@ TEST(CheckAnimationTest, BigShapesAreCheckedCoarser) {
   ASSERT_TRUE(check.ok()) << check.error().ToString();
   EXPECT_GT(check->objects[0].coarser, 1);
   EXPECT_LE(check->objects[0].vertices, 3000u);
+}
+
+// Steep, and the faster the finer the frames are cut, but no jump: 8 to 12 times the shape's step.
+TEST(CheckAnimationTest, S25_SteepIsNotPopping) {
+  const auto animation = Animate(
+      Rising("method: \"surface\" epsilon: .05 H: .5 law: SIMILAR direction: UP variant: CURRENT"));
+  const Result<AnimationCheck> check = CheckAnimation(*animation);
+  ASSERT_TRUE(check.ok()) << check.error().ToString();
+  EXPECT_TRUE(check->good) << check->objects[0].verdict;
+  EXPECT_GT(check->objects[0].proportion, kStepProportion);
+  EXPECT_THAT(check->objects[0].verdict, HasSubstr("times as far as the shape"));
 }
 
 // An animation whose frames are given, to plant what the engine itself does not do.

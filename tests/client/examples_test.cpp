@@ -26,7 +26,7 @@ class ExamplesTest : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ExamplesTest, IsGoodAndRendersAtATinySize) {
   const std::string scene = Example(GetParam());
-  const ProgramRun check = RunFjord({"check", scene});
+  const ProgramRun check = RunFjord({"check", "--animation", scene});
   EXPECT_EQ(check.code, 0) << check.err;
   const ScratchFolder folder;
   const ProgramRun run =

@@ -67,6 +67,19 @@ TEST(AmountTest, S14_SimilarFactorFallsAsHGrows) {
   EXPECT_EQ(*SimilarFactor(1, 4), 0);
 }
 
+// Never smoother than asked, and the knob turns over its whole range.
+TEST(AmountTest, S14_HeldBackHIsRougherAndTurnsAllTheWay) {
+  EXPECT_EQ(HeldBackH(1), 1);
+  EXPECT_EQ(HeldBackH(.06), .06);
+  double last = 0;
+  for (double H = .06; H <= 1; H += .02) {
+    EXPECT_LE(HeldBackH(H), H);
+    EXPECT_GT(HeldBackH(H), last);
+    EXPECT_TRUE(SimilarFactor(HeldBackH(H), 4).ok());
+    last = HeldBackH(H);
+  }
+}
+
 TEST(AmountTest, S14_SimilarFactorRefusesWhatTheClampForbids) {
   EXPECT_FALSE(SimilarFactor(.03, 4).ok());
   EXPECT_FALSE(SimilarFactor(-1, 4).ok());

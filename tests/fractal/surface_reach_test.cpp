@@ -50,6 +50,9 @@ std::vector<Variety> Varieties() {
     add("affine perturbed", Island(), s, .1);
     s.coast = true;
     add("affine coast", Island(), s, .1);
+    s.amplitude = 0;
+    s.coast_H = .2;
+    add("coast alone", Island(), s, .3);
     FractalSettings pixels = PixelSettings(3, 120, Vec3(0, -3, 1), .3);
     pixels.H = H;
     add("affine pixels", TaiwanRelief(), pixels, .1);

@@ -49,6 +49,30 @@ TEST(SurfaceSeamsTest, S20_VertexNormalsCloseTheGaps) {
   EXPECT_EQ(SinglesBeyondTheBorder(Direction::kUp), 0u);
 }
 
+// Of the very ends, and offsets go along it.
+TEST(SurfaceSeamsTest, S20_MidpointsMoveAlongTheMeanOfTheirEndsAndKeepIt) {
+  FractalSettings settings = SurfaceSettings(.5);
+  settings.max_level = 1;
+  const CoarseShape roof = Roof();
+  const WeldedShape welded = Weld(*Prepare(roof, settings));
+  size_t found = 0;
+  for (uint32_t a = 0; a < 4; ++a) {
+    for (uint32_t b = a + 1; b < 4; ++b) {
+      const Identity id = MidpointIdentity(welded.identity[a], welded.identity[b]);
+      const auto at = std::find(welded.identity.begin(), welded.identity.end(), id);
+      if (at == welded.identity.end()) continue;
+      const auto m = static_cast<size_t>(at - welded.identity.begin());
+      const Vec3 mean = Unit(welded.direction[a] + welded.direction[b]);
+      EXPECT_LT(Length(welded.direction[m] - mean), 1e-14);
+      const Vec3 offset = welded.mesh.points[m] - (roof.now[a] + roof.now[b]) * .5;
+      EXPECT_GT(Length(offset), 1e-4);
+      EXPECT_LT(Length(glm::cross(offset, mean)), 1e-14);
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, 5u);
+}
+
 TEST(SurfaceSeamsTest, S20_CurrentOffsetsAreSquareToTheirEdge) {
   FractalSettings settings = SurfaceSettings(.5);
   settings.variant = Variant::kCurrent;

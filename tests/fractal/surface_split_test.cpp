@@ -28,6 +28,30 @@ TEST(SurfaceSplitTest, S21_AllFourCasesOccurOnTaiwan) {
   EXPECT_EQ(cases, (std::set<size_t>{1, 2, 3, 4}));
 }
 
+// With two long edges, what is left of the triangle is cut from the middle of the longer one.
+TEST(SurfaceSplitTest, S21_TwoLongEdgesAreCutFromTheLongerOnesMiddle) {
+  for (const bool first_longer : {false, true}) {
+    CoarseShape shape;  // sides 0-1 and 1-2 long
+    shape.now = {{0, 0, 0}, {first_longer ? 1.6 : 1.2, 0, 0}, {.4, .8, 0}};
+    if (!first_longer) shape.now[2] = {-.3, .6, 0};
+    shape.rest = shape.now;
+    shape.triangles = {{0, 1, 2}};
+    FractalSettings settings = Flat(SurfaceSettings(1.1));
+    settings.max_level = 1;
+    const WeldedShape welded = Weld(*Prepare(shape, settings));
+    ASSERT_EQ(welded.mesh.FaceCount(), 3u);
+    std::set<std::pair<uint32_t, uint32_t>> edges;
+    for (const auto& [a, b] : EdgesOf(welded)) edges.insert(std::minmax(a, b));
+    const auto middle = [&](uint32_t a, uint32_t b) {
+      const Identity id = MidpointIdentity(welded.identity[a], welded.identity[b]);
+      return static_cast<uint32_t>(std::find(welded.identity.begin(), welded.identity.end(), id) -
+                                   welded.identity.begin());
+    };
+    EXPECT_EQ(edges.count({2, middle(0, 1)}), first_longer ? 1u : 0u);
+    EXPECT_EQ(edges.count({0, middle(1, 2)}), first_longer ? 0u : 1u);
+  }
+}
+
 // An edge gets a midpoint exactly when it is longer than epsilon in the rest pose.
 TEST(SurfaceSplitTest, S21_EachEdgeDecidesAlone) {
   const double epsilon = .11;
