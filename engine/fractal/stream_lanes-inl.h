@@ -1,6 +1,6 @@
 // What the kernels on streams of vertices share, compiled once per SIMD target: 64-byte vertices
-// turned into columns and back in registers, lanes of a mask brought to the front, gathers. Lane for
-// lane the same operations at every width; no fused multiply-add, no Min or Max of floats
+// turned into columns and back in registers, lanes of a mask brought to the front, gathers. Lane
+// for lane the same operations at every width; no fused multiply-add, no Min or Max of floats
 // (exact_math-inl.h says why).
 
 #if defined(FJORD_ENGINE_FRACTAL_STREAM_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)

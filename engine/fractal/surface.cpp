@@ -164,8 +164,8 @@ class PreparedSurface final : public PreparedFractal {
     // a mean of them is sqrt((1 + 2 d) / 3) long at least.
     double closest = 1;
     for (int k = 0; k < 3; ++k) {
-      closest = std::min(
-          closest, glm::dot(root.vertex[k].direction, root.vertex[(k + 1) % 3].direction));
+      closest =
+          std::min(closest, glm::dot(root.vertex[k].direction, root.vertex[(k + 1) % 3].direction));
     }
     const bool straight =
         rules_.variant == Variant::kFixed && rules_.direction == Direction::kVertex;

@@ -189,8 +189,7 @@ class Coverer {
                                        hn::And(AtLeast(y, tile_top_), hn::Lt(y, tile_bottom_))));
     const VI column = hn::ShiftRight<8>(x - tile_left_), row = hn::ShiftRight<8>(y - tile_top_);
     const VI pixel = row * hn::Set(d, tile_.width) + column;
-    const VI index =
-        pixel * hn::Set(d, static_cast<int32_t>(places_.size())) + hn::Set(d, sample);
+    const VI index = pixel * hn::Set(d, static_cast<int32_t>(places_.size())) + hn::Set(d, sample);
     const M32 mask = hn::RebindMask(du, covered);
     const Compactor front(mask);
     const size_t at = out_->hits;
@@ -287,7 +286,8 @@ struct Led {
     }
     const auto before = [&](int i, int j) HWY_ATTR {
       const VI xi = Signed(x[i]), xj = Signed(x[j]);
-      const MI less = hn::Or(hn::Lt(xi, xj), hn::And(hn::Eq(xi, xj), hn::Lt(Signed(y[i]), Signed(y[j]))));
+      const MI less =
+          hn::Or(hn::Lt(xi, xj), hn::And(hn::Eq(xi, xj), hn::Lt(Signed(y[i]), Signed(y[j]))));
       return hn::RebindMask(du, less);
     };
     const M32 ab = before(0, 1), ac = before(0, 2), bc = before(1, 2);
@@ -354,9 +354,7 @@ void Project(const Projection& to, const StreamVertex* HWY_RESTRICT vertices, si
     return (sum + hn::Set(d, r[2]) * c.v[2]) + hn::Set(d, r[3]);
   };
   // view.cpp's ToFixed: floor(v + 1/2); inside the guard.
-  const auto fixed = [&](VF v) HWY_ATTR {
-    return hn::DemoteTo(di, hn::Floor(v + hn::Set(d, .5)));
-  };
+  const auto fixed = [&](VF v) HWY_ATTR { return hn::DemoteTo(di, hn::Floor(v + hn::Set(d, .5))); };
   for (size_t first = 0; first < count; first += kLanes) {
     for (size_t i = 0; i < kLanes; ++i) {
       numbers[i] = static_cast<uint32_t>(std::min(first + i, count - 1));

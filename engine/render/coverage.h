@@ -32,8 +32,8 @@ struct ProjectedBatch {
 void ProjectVertices(const Projection& to, std::span<const StreamVertex> vertices,
                      ProjectedBatch* out);
 
-// What micro-triangles cover. Hit i: triangles[triangle] covers the sample at (x, y), which is entry
-// `sample` of the tile buffer, at `depth`; its corner `lead` leads.
+// What micro-triangles cover. Hit i: triangles[triangle] covers the sample at (x, y), which is
+// entry `sample` of the tile buffer, at `depth`; its corner `lead` leads.
 struct CoverageList {
   std::vector<uint32_t> triangle, sample, lead;
   std::vector<int32_t> x, y;

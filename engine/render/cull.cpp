@@ -158,8 +158,7 @@ TileLists BinRoots(const TileRect& region, int32_t tile_width, int32_t tile_heig
     }
     std::sort(touches.begin() + static_cast<std::ptrdiff_t>(first_of_object), touches.end(),
               [](const Touch& a, const Touch& b) {
-                return a.distance != b.distance ? a.distance < b.distance
-                                                : a.ref.root < b.ref.root;
+                return a.distance != b.distance ? a.distance < b.distance : a.ref.root < b.ref.root;
               });
   }
   for (size_t i = 1; i < count.size(); ++i) count[i] += count[i - 1];

@@ -42,8 +42,8 @@ struct RootRef {
 };
 
 // Tiles of a region, row by row, and what may touch each: roots of tile t are
-// refs[start[t]] .. refs[start[t + 1]], objects ascending, near roots first: what they hide need not
-// be made.
+// refs[start[t]] .. refs[start[t + 1]], objects ascending, near roots first: what they hide need
+// not be made.
 struct TileLists {
   std::vector<TileRect> tiles;
   std::vector<TileRect> busy;  // the rows of a tile that anything may touch; height 0: none

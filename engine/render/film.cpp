@@ -42,8 +42,8 @@ Film::Behind Film::BehindRow(int32_t y) const {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const int32_t x : {tile_.x, tile_.right()}) {
     for (const int32_t down : {0, 1}) {
-      const double at = sea.At(static_cast<double>(x * kFixedOne),
-                               static_cast<double>((y + down) * kFixedOne));
+      const double at =
+          sea.At(static_cast<double>(x * kFixedOne), static_cast<double>((y + down) * kFixedOne));
       least = std::min(least, at);
       most = std::max(most, at);
     }
@@ -99,8 +99,7 @@ void Film::FillPlain(int32_t y, Span pixels, Behind behind, float* out) {
 
 // The sea was laid under everything else before it was drawn: where no hit is, it shows.
 void Film::FindOwners(int32_t y, Span pixels, const TileBuffer* drawn) {
-  const uint32_t* hit =
-      drawn != nullptr ? drawn->hit() + drawn->Index(tile_.x, y, 0) : nullptr;
+  const uint32_t* hit = drawn != nullptr ? drawn->hit() + drawn->Index(tile_.x, y, 0) : nullptr;
   const bool one = setup_->objects.size() == 1;
   sea_.Resize(static_cast<size_t>(pixels.end - pixels.first));
   sea_.size = 0;

@@ -36,7 +36,8 @@ std::optional<ViewPlane> FillPlane(const View& view, const BuiltObject& object,
     return std::nullopt;
   }
   const Vec3 length(to.z[0], to.z[1], to.z[2]);
-  for (size_t root = 0; root < object.prepared->RootCount(); ++root) {
+  // Orthographic views have no eye to be behind.
+  for (size_t root = 0; !to.orthographic && root < object.prepared->RootCount(); ++root) {
     const Ball ball = object.prepared->Bound(root);
     if (!(Row(to.z, ball.center) - Length(length) * ball.radius > view.near)) return std::nullopt;
   }

@@ -6,8 +6,8 @@
 #include "engine/base/clamp.h"
 #include "engine/render/clip.h"
 #include "engine/render/integer.h"
-#include "engine/render/raster_source.h"
 #include "engine/render/raster_medium.h"
+#include "engine/render/raster_source.h"
 #include "engine/render/triangle_setup.h"
 
 namespace fjord {

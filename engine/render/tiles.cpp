@@ -21,8 +21,8 @@ struct TileSize {
   int32_t width, height;
 };
 
-// Terrain moves up and down more than sideways, so what is made twice lies along the upper and lower
-// edges of tiles: few of those, and no more columns than the threads need to be busy.
+// Terrain moves up and down more than sideways, so what is made twice lies along the upper and
+// lower edges of tiles: few of those, and no more columns than the threads need to be busy.
 TileSize ChooseTile(const TileRect& region, int threads) {
   constexpr int32_t kTall = 1088;
   const int32_t share = region.width / (threads <= 1 ? 1 : 4 * threads) / 16 * 16;
@@ -51,8 +51,8 @@ class TileSink final : public StreamSink {
   }
 
  private:
-  // Is all of it behind what the tile holds already? Asked of small ones only: large ones are seldom
-  // hidden, and cut anyway.
+  // Is all of it behind what the tile holds already? Asked of small ones only: large ones are
+  // seldom hidden, and cut anyway.
   bool IsHidden(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) const {
     constexpr double kLargest = 64 * kFixedOne;
     const std::optional<ScreenBound> bound = BoundOnScreen(raster_->projection(), a, b, c, reach);
@@ -133,8 +133,7 @@ class RegionRenderer {
   Result<RenderedFrame> Run() {
     ParallelFor(lists_.tiles.size(), options_.threads, [this](size_t i) { RenderTile(i); });
     if (IsSet(options_.cancel)) return MakeError(ErrorCode::kCancelled, "cancelled");
-    stats_.peak_bytes =
-        most_bytes_ * std::min(static_cast<size_t>(Threads()), lists_.tiles.size());
+    stats_.peak_bytes = most_bytes_ * std::min(static_cast<size_t>(Threads()), lists_.tiles.size());
     stats_.peak_bytes += picture_.bytes.size() + lists_.refs.capacity() * sizeof(RootRef);
     return RenderedFrame{std::move(picture_), stats_};
   }

@@ -126,8 +126,7 @@ TEST(SurfaceReachTest, S7_CullingLosesNothingThatIsWanted) {
       const double radius = .05;
       for (const size_t hint : {16u, 64u, 256u}) {
         CollectSink culled;
-        culled.wanted = [&](const Vec3& a, const Vec3& b, const Vec3& c,
-                            const StreamReach& reach) {
+        culled.wanted = [&](const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) {
           return Distance(center, a, b, c) <= radius + reach.Any();
         };
         prepared->Stream(root, culled, hint);

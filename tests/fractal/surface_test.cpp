@@ -192,7 +192,9 @@ TEST(SurfaceTest, G44_CullingAndPlacingChangeNoVertex) {
   const std::vector<Leaf> all = StreamedLeaves(*prepared);
   CollectSink sink;
   size_t asked = 0;
-  sink.wanted = [&](const Vec3&, const Vec3&, const Vec3&, const StreamReach&) { return ++asked % 3 != 0; };
+  sink.wanted = [&](const Vec3&, const Vec3&, const Vec3&, const StreamReach&) {
+    return ++asked % 3 != 0;
+  };
   for (size_t root = 0; root < prepared->RootCount(); ++root) prepared->Stream(root, sink, 64);
   std::sort(sink.leaves.begin(), sink.leaves.end());
   EXPECT_LT(sink.leaves.size(), all.size());

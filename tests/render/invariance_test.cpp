@@ -115,7 +115,9 @@ class Unculled final : public PreparedFractal {
     class All final : public StreamSink {
      public:
       explicit All(StreamSink* sink) : sink_(sink) {}
-      bool Wants(const Vec3&, const Vec3&, const Vec3&, const StreamReach&) override { return true; }
+      bool Wants(const Vec3&, const Vec3&, const Vec3&, const StreamReach&) override {
+        return true;
+      }
       void Take(const StreamBatch& batch) override { sink_->Take(batch); }
 
      private:

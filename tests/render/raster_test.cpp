@@ -248,6 +248,9 @@ TEST(RasterTest, ClosedCurvesAreFilledByWinding) {
   for (const int tile : {16, 32}) {
     EXPECT_EQ(DigestOf(scene, {.threads = 1, .tile_size = tile}), PixelDigest(picture).Hex());
   }
+  // An orthographic view has no eye to be behind.
+  Put(scene.mutable_camera()->mutable_eye(), {0, 0, 5});
+  EXPECT_EQ(DigestOf(scene), PixelDigest(picture).Hex());
 }
 
 }  // namespace
