@@ -81,8 +81,8 @@ LoadResult Complete(v1::Scene scene, const AssetReader& assets, std::span<const 
   }
   FillSurroundings(&whole, source->name);
   ApplySettings(&whole, settings, source, &errors);
-  CheckValues(whole, &errors);
-  if (!errors.empty()) {  // shapes are read from sound numbers only
+  CheckValues(&whole, &errors);
+  if (errors.Full()) {  // not every value was looked at
     result.errors = errors.Take();
     return result;
   }

@@ -89,8 +89,8 @@ TEST_F(BadInputTest, KnobsOutOfRange) {
 }
 
 TEST_F(BadInputTest, IndicesThatLeadNowhere) {
-  ExpectRefused(WithFace("v: 0 v: 1 v: 2"), ":4:", "face 1 names vertex 0");
-  ExpectRefused(WithFace("v: 1 v: 2 v: 4"), ":4:", "face 1 names vertex 4");
+  ExpectRefused(WithFace("v: 0 v: 1 v: 2"), ":6:", "there is no vertex 0");
+  ExpectRefused(WithFace("v: 1 v: 2 v: 4"), ":6:", "there is no vertex 4");
   ExpectRefused(WithFace("v: 1 v: 2 v: -3"), ":6:", "");
 }
 
