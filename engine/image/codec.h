@@ -1,4 +1,4 @@
-// Encoding and decoding picture files: the only place that knows OpenImageIO. Thread-safe.
+// Encoding and decoding picture files, through the module of picture_files.h. Thread-safe.
 #pragma once
 
 #include <string>

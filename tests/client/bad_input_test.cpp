@@ -112,7 +112,8 @@ TEST_F(BadInputTest, CorrespondenceToMissingPoints) {
 TEST_F(BadInputTest, SeveralDefectsAtOnce) {
   const std::string file = folder_.Write("bad.scene", WithFractal("epsilon: -1 pixels: -2"));
   const ProgramRun run = RunFjord({"check", file});
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 3) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("give one of epsilon, pixels and viewing"));
 }
 
 TEST_F(BadInputTest, FramesOutsideTheAnimation) {
