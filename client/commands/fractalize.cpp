@@ -88,9 +88,9 @@ int RunFractalize(const Options& options) {
   if (!range.ok()) return console::Fail(range.error());
 
   const Result<v1::FrameScene> frame = scene.animation->Inbetween(options.frame);
-  if (!frame.ok()) return console::Fail(frame.error());
+  if (!frame.ok()) return console::Fail(InScene(frame.error(), options.scene));
   const Result<BuiltFrame> built = BuildFrame(*frame);
-  if (!built.ok()) return console::Fail(built.error());
+  if (!built.ok()) return console::Fail(InScene(built.error(), options.scene));
   const Result<ShapeFile> shape = Weld(*built, scene.animation->scene(), options);
   if (!shape.ok()) return console::Fail(shape.error());
   const Result<PictureInfo> info = DescribeFrame(*frame);

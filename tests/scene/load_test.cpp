@@ -299,6 +299,8 @@ TEST(LoadTest, SettingsCountAsWritten) {
             "--set camera.fov=x: error: \"x\" is not a number\n"
             "--set objects[ball].shape.primitive.radius=-3: error: "
             "objects[ball].shape.primitive.radius: -3 is out of range: above 0\n");
+  EXPECT_EQ(ErrorsOf(kBall, {{"camera.eye", "1 2"}}),
+            "--set camera.eye=1 2: error: \"1 2\" is not three numbers, as in \"0 -5 2\"\n");
   EXPECT_EQ(ErrorsOf(kBall, {{"camera.fow", "3"}}),
             "--set camera.fow=3: error: camera has no field \"fow\"; did you mean fov?\n");
 }
