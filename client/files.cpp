@@ -40,7 +40,7 @@ void Walk(const fs::path& folder, std::vector<std::string>* found, std::error_co
 
 }  // namespace
 
-Result<> MakeFolder(const std::string& path) {
+Result<> MakeFolder(const std::string& path, const std::string& option) {
   const Place place{path, 0, 0};
   std::error_code error;
   if (!fs::is_directory(path, error)) {
@@ -48,13 +48,14 @@ Result<> MakeFolder(const std::string& path) {
     if (error || !fs::is_directory(path, error)) {
       const std::string why = error ? error.message() : "there is a file of that name";
       return MakeError(ErrorCode::kIo,
-                       "the folder cannot be made: " + why + "; name another with -o", place);
+                       "the folder cannot be made: " + why + "; name another with " + option,
+                       place);
     }
   }
   if (access(path.c_str(), W_OK | X_OK) != 0) {
     return MakeError(ErrorCode::kIo,
                      std::string("the folder cannot be written: ") + std::strerror(errno) +
-                         "; name another with -o",
+                         "; name another with " + option,
                      place);
   }
   return Ok{};

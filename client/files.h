@@ -18,7 +18,8 @@ inline Result<std::string> ReadFile(const std::string& path) {
 }
 
 // Makes the folder and its parents where missing; kIo where that fails or it cannot be written.
-Result<> MakeFolder(const std::string& path);
+// `option`: the one that names another.
+Result<> MakeFolder(const std::string& path, const std::string& option = "-o");
 
 // .png and .exr files: a file itself; of a folder, all below it in name order. Hidden ones are left
 // out, and so are links to folders, which may go round in circles.
