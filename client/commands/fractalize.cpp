@@ -122,7 +122,8 @@ void AddFractalize(CLI::App& app, Run* run) {
   command->add_option("-o,--output", options->output, "A .obj, .ply, .std, .epf or .svg file")
       ->required();
   command->add_option("--object", options->object, "This object only; default all together");
-  command->add_option("--max-points", options->max_points, "Give up beyond so many points");
+  command->add_option("--max-points", options->max_points, "Give up beyond so many points")
+      ->capture_default_str();
   command
       ->add_option("--set", options->sets, "path=value, instead of what the scene says; repeatable")
       ->allow_extra_args(false);

@@ -52,6 +52,8 @@ TEST(CliTest, WrongUsageIsCode2AndOneLine) {
       {"submit", "a.scene", "--verify", "2"},
       {"preview", "a.scene", "--frame", "1", "-o", "a.gif"},
       {"fractalize", "a.scene", "--frame", "1", "-o", "a.gif"},
+      {"movie", "out", "-o", "a.gif"},
+      {"sheet", "out", "-o", "a.jpg"},
       {"fractalize", "a.scene", "--frame", "0", "-o", "a.obj"},
       {"presets", "nothing"},
       {"digest"},
