@@ -35,7 +35,7 @@ Faces Missing(const Faces& faces, const Faces& others) {
 
 std::string FaceText(const std::vector<uint32_t>& face) {
   std::string text = "the face";
-  for (const uint32_t vertex : face) text += " " + std::to_string(vertex + 1);
+  for (const uint32_t vertex : face) text.append(" ").append(std::to_string(vertex + 1));
   return text;
 }
 
