@@ -108,8 +108,8 @@ class ObjectChecker {
     } else if (check_.pops > 0) {
       check_.good = false;
       check_.verdict = "a vertex pops between " + frames(check_.pops) +
-                       ": it jumps where the coarse shape moves on; use variant: FIXED, or "
-                       "keys between which the shape turns less";
+                       ": the shape turns over there; use direction: UP, which does not turn with "
+                       "it, or keys that turn it less";
     } else if (check_.identities_change > 0) {
       check_.verdict = "split by frame: vertices come and go from frame " +
                        std::to_string(check_.identities_change) + " on, as asked for";

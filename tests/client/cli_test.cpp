@@ -79,23 +79,26 @@ TEST(CliTest, CheckAnimationTellsWhetherAnythingPops) {
   EXPECT_THAT(calm.err, HasSubstr("good.scene: object hill: the same vertices in every frame"));
   EXPECT_EQ(JsonOf(RunFjord({"check", "--animation", "--json", good}))[0]["animation"][0]["good"],
             true);
-  // a segment that swings past the direction in which its points are moved
-  const std::string pops = folder.Write(
-      "pops.scene",
+  // a line whose plane tumbles over
+  const std::string text =
       "output { width: 64 height: 48 frames: 20 }\nobjects { name: \"bolt\"\n"
-      "key { frame: 1 shape { polyline { point { x: -1 } point { x: 1 y: .2 } point { x: 3 } } } "
-      "}\n"
-      "key { frame: 20 shape { polyline { point { x: -1 y: 1.8 } point { x: 1 y: -1.9 } point { x: "
-      "1.5 y: 2 } } } }\n"
-      "fractal { method: \"curve\" law: SIMILAR variant: CURRENT H: .3 epsilon: .2 } }\n");
+      "key { frame: 1 shape { polyline { point {} point { x: 1 y: 1 } point { x: 2 } } } }\n"
+      "key { frame: 10 shape { polyline { point {} point { x: 1 y: .1 z: 1 } point { x: 2 } } } }\n"
+      "key { frame: 20 shape { polyline { point {} point { x: 1 y: -1 } point { x: 2 } } } }\n"
+      "fractal { epsilon: .1 } }\n";
+  const std::string pops = folder.Write("pops.scene", text);
   const ProgramRun wild = RunFjord({"check", "--animation", pops});
   EXPECT_EQ(wild.code, 1);
   EXPECT_THAT(wild.err, HasSubstr("pops.scene: error: object bolt: a vertex pops between frames 10 "
                                   "and 11"));
-  EXPECT_THAT(wild.err, HasSubstr("variant: FIXED"));
+  EXPECT_THAT(wild.err, HasSubstr("use direction: UP"));
   const ProgramRun json = RunFjord({"check", "--animation", "--json", pops});
   EXPECT_EQ(json.code, 1);
-  EXPECT_EQ(JsonOf(json)[0]["animation"][0]["worst_frame"], 10);
+  EXPECT_EQ(JsonOf(json)[0]["animation"][0]["good"], false);
+  // as the message advises
+  std::string calmed = text;
+  calmed.replace(calmed.find("epsilon"), 0, "direction: UP ");
+  EXPECT_EQ(RunFjord({"check", "--animation", folder.Write("up.scene", calmed)}).code, 0);
   EXPECT_EQ(RunFjord({"check", pops}).code, 0) << "a scene without defects otherwise";
 }
 
