@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <utility>
 
 #include "engine/base/digest.h"
@@ -16,10 +17,12 @@ constexpr std::chrono::seconds kCallLimit{20};
 constexpr std::chrono::minutes kBlobLimit{10};
 constexpr int kLargestAnswer = 64 << 20;  // a page of frames with long errors
 
-std::string AddressOr(const std::string& address) {
-  if (!address.empty()) return address;
+std::string AddressOr(std::string address) {
   const char* from_environment = std::getenv("FJORD_SERVER");
-  return from_environment != nullptr && *from_environment != 0 ? from_environment : kDefaultServer;
+  if (address.empty() && from_environment != nullptr) address = from_environment;
+  if (address.empty()) return kDefaultServer;
+  if (address.find(':') == std::string::npos) address += std::strchr(kDefaultServer, ':');
+  return address;
 }
 
 std::shared_ptr<grpc::Channel> MakeChannel(const std::string& address) {

@@ -17,7 +17,8 @@ namespace fjord {
 
 class FarmClient {
  public:
-  // "host:port"; empty: $FJORD_SERVER, then kDefaultServer. Connects with the first call.
+  // "host:port"; no port: that of kDefaultServer; empty: $FJORD_SERVER, then kDefaultServer.
+  // Connects with the first call.
   explicit FarmClient(const std::string& address);
 
   const std::string& address() const { return address_; }

@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 
 namespace fjord {
@@ -32,7 +31,7 @@ void Walk(const fs::path& folder, std::vector<std::string>* found, std::error_co
   for (const fs::path& path : names) {
     std::error_code status;
     if (fs::is_directory(path, status)) {
-      Walk(path, found, error);
+      if (!fs::is_symlink(path, status)) Walk(path, found, error);
     } else if (IsPicture(path)) {
       found->push_back(folder == "." ? path.filename().string() : path.string());
     }
@@ -41,40 +40,7 @@ void Walk(const fs::path& folder, std::vector<std::string>* found, std::error_co
 
 }  // namespace
 
-Result<std::string> ReadFile(const std::string& path, uint64_t limit) {
-  const Place place{path, 0, 0};
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status))
-    return MakeError(ErrorCode::kNotFound, "there is no such file; check the name", place);
-  if (fs::is_directory(status))
-    return MakeError(ErrorCode::kInvalid, "this is a folder; name a file in it", place);
-  const auto too_large = [&](uint64_t bytes) {
-    return MakeError(ErrorCode::kLimit,
-                     "the file has " + std::to_string(bytes) + " bytes; at most " +
-                         std::to_string(limit) + " are read",
-                     place);
-  };
-  if (fs::is_regular_file(status)) {
-    const uint64_t size = fs::file_size(path, error);
-    if (!error && size > limit) return too_large(size);
-  }
-  std::ifstream in(path, std::ios::binary);
-  if (!in)
-    return MakeError(ErrorCode::kIo, std::string("cannot be opened: ") + std::strerror(errno),
-                     place);
-  std::string bytes;
-  char chunk[1 << 16];
-  while (in) {
-    in.read(chunk, sizeof chunk);
-    bytes.append(chunk, static_cast<size_t>(in.gcount()));
-    if (bytes.size() > limit) return too_large(bytes.size());
-  }
-  if (in.bad()) return MakeError(ErrorCode::kIo, "reading failed", place);
-  return bytes;
-}
-
-Result<> MakeFolder(const std::string& path) {
+Result<> MakeFolder(const std::string& path, const std::string& option) {
   const Place place{path, 0, 0};
   std::error_code error;
   if (!fs::is_directory(path, error)) {
@@ -82,13 +48,14 @@ Result<> MakeFolder(const std::string& path) {
     if (error || !fs::is_directory(path, error)) {
       const std::string why = error ? error.message() : "there is a file of that name";
       return MakeError(ErrorCode::kIo,
-                       "the folder cannot be made: " + why + "; name another with -o", place);
+                       "the folder cannot be made: " + why + "; name another with " + option,
+                       place);
     }
   }
   if (access(path.c_str(), W_OK | X_OK) != 0) {
     return MakeError(ErrorCode::kIo,
                      std::string("the folder cannot be written: ") + std::strerror(errno) +
-                         "; name another with -o",
+                         "; name another with " + option,
                      place);
   }
   return Ok{};

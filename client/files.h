@@ -1,4 +1,4 @@
-// Files of the client: reading whole files, folders of pictures, names that are written.
+// Files of the client: whole files, folders of pictures, names that are written.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,21 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/formats/read_bytes.h"
 
 namespace fjord {
 
-// The whole of a regular file of at most `limit` bytes; errors name the path and the remedy.
-Result<std::string> ReadFile(const std::string& path, uint64_t limit = uint64_t{1} << 30);
+// The whole of a file of at most 1 GiB; errors name the path and the remedy.
+inline Result<std::string> ReadFile(const std::string& path) {
+  return ReadBytes(path, size_t{1} << 30);
+}
 
 // Makes the folder and its parents where missing; kIo where that fails or it cannot be written.
-Result<> MakeFolder(const std::string& path);
+// `option`: the one that names another.
+Result<> MakeFolder(const std::string& path, const std::string& option = "-o");
 
 // .png and .exr files: a file itself; of a folder, all below it in name order. Hidden ones are left
-// out.
+// out, and so are links to folders, which may go round in circles.
 Result<std::vector<std::string>> ListPictures(const std::string& path);
 
 // NAME.0001.png. Four digits, more where the number needs them.

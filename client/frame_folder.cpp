@@ -40,6 +40,11 @@ Result<std::unique_ptr<FrameFolder>> FrameFolder::Open(const std::string& folder
       console::Note(path + ": note: cannot be read and is written anew");
     } else if (earlier->scene_digest == opened->manifest_.scene_digest) {
       opened->manifest_.frames = std::move(earlier->frames);
+    } else if (earlier->name != opened->manifest_.name && !earlier->frames.empty()) {
+      return MakeError(ErrorCode::kInvalid,
+                       "the folder holds frames of another scene, " + earlier->name +
+                           "; name another folder with -o, or remove " + path,
+                       {folder, 0, 0});
     } else {
       opened->earlier_ = std::move(earlier).value();
     }

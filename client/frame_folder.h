@@ -19,6 +19,7 @@ namespace fjord {
 class FrameFolder {
  public:
   // `head` says what is being made; frames of an earlier manifest of the same scene are taken over.
+  // A folder with frames of a scene of another name is refused: its manifest would be lost.
   // `ending` is that of the frames' files.
   static Result<std::unique_ptr<FrameFolder>> Open(const std::string& folder, Manifest head,
                                                    std::string ending);

@@ -193,7 +193,7 @@ class LocalFarm {
 Result<> RunLocalFarm(const LocalFarmOptions& options,
                       const std::function<void(const std::string& address)>& on_ready) {
   if (options.with_parent) prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (Result<> made = MakeFolder(options.data); !made.ok()) return made;
+  if (Result<> made = MakeFolder(options.data, "--data"); !made.ok()) return made;
   return LocalFarm(options).Run(on_ready);
 }
 

@@ -30,8 +30,9 @@ std::string FormatDuration(double seconds) {
 std::string FormatBar(double share, int width) {
   const int inside = std::max(1, width - 2);
   const int full = std::clamp(static_cast<int>(share * inside), 0, inside);
-  return "[" + std::string(static_cast<size_t>(full), '#') +
-         std::string(static_cast<size_t>(inside - full), '.') + "]";
+  std::string bar = "[";
+  bar.append(static_cast<size_t>(full), '#').append(static_cast<size_t>(inside - full), '.');
+  return bar + "]";
 }
 
 FrameProgress::Outlet FrameProgress::Console() {

@@ -77,7 +77,7 @@ Errors CheckMotion(const std::string& path, const Animation& animation, bool qui
     return !interrupted.load();
   };
   const Result<AnimationCheck> check = CheckAnimation(animation, options);
-  if (!check.ok()) return {check.error()};
+  if (!check.ok()) return {InScene(check.error(), path)};
   Errors errors;
   for (const ObjectCheck& object : check->objects) {
     found->push_back(ObjectJson(object));

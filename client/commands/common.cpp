@@ -62,9 +62,12 @@ Result<FrameRange> WithinAnimation(FrameRange range, uint32_t first, uint32_t la
                                    const std::string& scene_file) {
   if (range.first == 0) return FrameRange{first, last};
   if (range.first < first || range.last > last) {
-    return Invalid("frames " + std::to_string(range.first) + "-" + std::to_string(range.last) +
-                       " are asked for, the animation has " + std::to_string(first) + "-" +
-                       std::to_string(last) + "; change --frames or output.frames",
+    const std::string asked =
+        range.first == range.last
+            ? "frame " + std::to_string(range.first) + " is"
+            : "frames " + std::to_string(range.first) + "-" + std::to_string(range.last) + " are";
+    return Invalid(asked + " asked for, the animation has " + std::to_string(first) + "-" +
+                       std::to_string(last) + "; ask for others, or change output.frames",
                    {scene_file, 0, 0});
   }
   return range;
@@ -81,17 +84,18 @@ Result<std::vector<Setting>> SettingsOf(const std::vector<std::string>& sets,
   return settings;
 }
 
+Error InScene(Error error, const std::string& scene_file) {
+  if (error.place.file.empty()) error.place.file = scene_file;
+  return error;
+}
+
 Errors OpenScene(const std::string& path, const std::vector<Setting>& settings,
                  OpenedScene* opened) {
   LoadResult loaded = LoadSceneFile(path, settings);
   if (!loaded.ok()) return std::move(loaded.errors);
   opened->digest = Sha256Of(SerializeScene(loaded.loaded.scene)).Hex();
   Result<std::shared_ptr<const Animation>> animation = Animation::Make(std::move(loaded.loaded));
-  if (!animation.ok()) {
-    Error error = animation.error();
-    if (error.place.file.empty()) error.place.file = path;
-    return {std::move(error)};
-  }
+  if (!animation.ok()) return {InScene(animation.error(), path)};
   opened->animation = std::move(animation).value();
   return {};
 }

@@ -43,6 +43,9 @@ struct OpenedScene {
   std::string digest;  // of the complete scene
 };
 
+// The error with the scene file as its place, where it has none of its own.
+Error InScene(Error error, const std::string& scene_file);
+
 // Loads, checks and readies a scene; every defect comes back.
 Errors OpenScene(const std::string& path, const std::vector<Setting>& settings,
                  OpenedScene* opened);

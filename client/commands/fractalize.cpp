@@ -88,9 +88,9 @@ int RunFractalize(const Options& options) {
   if (!range.ok()) return console::Fail(range.error());
 
   const Result<v1::FrameScene> frame = scene.animation->Inbetween(options.frame);
-  if (!frame.ok()) return console::Fail(frame.error());
+  if (!frame.ok()) return console::Fail(InScene(frame.error(), options.scene));
   const Result<BuiltFrame> built = BuildFrame(*frame);
-  if (!built.ok()) return console::Fail(built.error());
+  if (!built.ok()) return console::Fail(InScene(built.error(), options.scene));
   const Result<ShapeFile> shape = Weld(*built, scene.animation->scene(), options);
   if (!shape.ok()) return console::Fail(shape.error());
   const Result<PictureInfo> info = DescribeFrame(*frame);
@@ -122,7 +122,8 @@ void AddFractalize(CLI::App& app, Run* run) {
   command->add_option("-o,--output", options->output, "A .obj, .ply, .std, .epf or .svg file")
       ->required();
   command->add_option("--object", options->object, "This object only; default all together");
-  command->add_option("--max-points", options->max_points, "Give up beyond so many points");
+  command->add_option("--max-points", options->max_points, "Give up beyond so many points")
+      ->capture_default_str();
   command
       ->add_option("--set", options->sets, "path=value, instead of what the scene says; repeatable")
       ->allow_extra_args(false);

@@ -55,6 +55,9 @@ int MovieOfFolder(const Options& options, const std::string& folder) {
 }
 
 int RunMovie(const Options& options) {
+  if (!options.output.ends_with(".mp4"))
+    return console::Fail(
+        MakeError(ErrorCode::kUsage, "-o " + options.output + ": a movie is an .mp4 file"));
   std::error_code error;
   if (fs::is_directory(options.source, error)) return MovieOfFolder(options, options.source);
   if (options.source.find('/') != std::string::npos) {

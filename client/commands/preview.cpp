@@ -57,9 +57,9 @@ int RunPreview(const Options& options) {
                       scene.animation->last_frame(), options.scene);
   if (!range.ok()) return console::Fail(range.error());
   const Result<v1::FrameScene> frame = scene.animation->Inbetween(options.frame);
-  if (!frame.ok()) return console::Fail(frame.error());
+  if (!frame.ok()) return console::Fail(InScene(frame.error(), options.scene));
   const Result<BuiltFrame> built = BuildFrame(*frame);
-  if (!built.ok()) return console::Fail(built.error());
+  if (!built.ok()) return console::Fail(InScene(built.error(), options.scene));
   const Result<Drawn> drawn = Draw(*built, options);
   if (!drawn.ok()) return console::Fail(drawn.error());
   if (const Result<> written = WriteFileAtomically(options.output, drawn->bytes); !written.ok())

@@ -77,7 +77,7 @@ int RunRender(const Options& options) {
                                        " of " + std::to_string(total) + " frames are in " +
                                        options.folder + ", the same command continues"));
   }
-  if (!rendered.ok()) return console::Fail(rendered.error());
+  if (!rendered.ok()) return console::Fail(InScene(rendered.error(), options.scene));
   return Report(options, report, *range,
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }

@@ -21,6 +21,9 @@ struct Options {
 };
 
 int RunSheet(const Options& options) {
+  if (!options.output.ends_with(".png"))
+    return console::Fail(
+        MakeError(ErrorCode::kUsage, "-o " + options.output + ": a sheet is a .png file"));
   const Result<FrameList> frames = FramesOf(options.folder, options.output);
   if (!frames.ok()) return console::Fail(frames.error());
   const Result<Picture> sheet = MakeContactSheet(frames->files, options.layout);

@@ -91,10 +91,14 @@ int RunSubmit(const Options& options) {
   nlohmann::ordered_json json = {{"id", job}, {"existed", submitted->existed()}};
   if (options.wait) {
     const Result<v1::Job> ended = FollowJob(client, job, options.follow);
-    if (!ended.ok()) return console::Fail(ended.error());
-    json["job"] = JobJson(*ended);
-    code = ExitCodeOfJob(ended->state());
-    if (!ended->error().empty()) console::Note("error: " + ended->error());
+    if (ended.ok()) {
+      json["job"] = JobJson(*ended);
+      code = ExitCodeOfJob(ended->state());
+      if (!ended->error().empty()) console::Note("error: " + ended->error());
+    } else {
+      code = console::Fail(ended.error());
+      console::Note("job " + job + " is with the farm; fjord watch " + job + " follows it");
+    }
   }
   if (options.farm.json) {
     if (const Result<> printed = console::Print(json.dump(1) + "\n"); !printed.ok())

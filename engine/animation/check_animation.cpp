@@ -107,7 +107,9 @@ class ObjectChecker {
       check_.verdict = "vertices come or go at frame " + std::to_string(check_.identities_change);
     } else if (check_.pops > 0) {
       check_.good = false;
-      check_.verdict = "a vertex pops between " + frames(check_.pops);
+      check_.verdict = "a vertex pops between " + frames(check_.pops) +
+                       ": the shape turns over there; use direction: UP, which does not turn with "
+                       "it, or keys that turn it less";
     } else if (check_.identities_change > 0) {
       check_.verdict = "split by frame: vertices come and go from frame " +
                        std::to_string(check_.identities_change) + " on, as asked for";

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <string>
 
 #include "engine/animation/outline.h"
 
@@ -46,37 +45,8 @@ std::vector<Vec3> Sampled(std::span<const Vec3> points, std::span<const double> 
   return samples;
 }
 
-// Each face turned to its smallest vertex, the faces sorted.
-std::vector<std::vector<uint32_t>> SortedFaces(const Geometry& mesh,
-                                               std::span<const uint32_t> number_of) {
-  std::vector<std::vector<uint32_t>> faces;
-  size_t corner = 0;
-  for (const uint32_t size : mesh.face_size) {
-    std::vector<uint32_t> face;
-    for (uint32_t i = 0; i < size; ++i) face.push_back(number_of[mesh.face_vertex[corner + i]]);
-    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
-    faces.push_back(std::move(face));
-    corner += size;
-  }
-  std::sort(faces.begin(), faces.end());
-  return faces;
-}
-
-// The vertices of a sorted face list's first face that the other list has not, counted from 1.
-std::string FirstMissing(const std::vector<std::vector<uint32_t>>& faces,
-                         const std::vector<std::vector<uint32_t>>& others) {
-  for (const auto& face : faces) {
-    if (std::binary_search(others.begin(), others.end(), face)) continue;
-    std::string text;
-    for (const uint32_t vertex : face)
-      text += (text.empty() ? "" : " ") + std::to_string(vertex + 1);
-    return text;
-  }
-  return "";
-}
-
-Result<AlignedKeys> AlignMeshes(const v1::Object& object, std::span<const Geometry> keys,
-                                std::span<const PointPairs> pairs) {
+AlignedKeys AlignMeshes(const v1::Object& object, std::span<const Geometry> keys,
+                        std::span<const PointPairs> pairs) {
   AlignedKeys aligned;
   const size_t count = keys[0].points.size();
   for (size_t k = 0; k < keys.size(); ++k) {
@@ -88,18 +58,6 @@ Result<AlignedKeys> AlignMeshes(const v1::Object& object, std::span<const Geomet
     for (size_t v = 0; v < count; ++v) points[numbers[v]] = keys[k].points[v];
     aligned.points.push_back(std::move(points));
     aligned.number_of.push_back(std::move(numbers));
-    const bool same = aligned.number_of[k] == aligned.number_of[0] &&
-                      keys[k].face_size == keys[0].face_size &&
-                      keys[k].face_vertex == keys[0].face_vertex;
-    if (same) continue;
-    const auto first = SortedFaces(keys[0], aligned.number_of[0]);
-    const auto now = SortedFaces(keys[k], aligned.number_of[k]);
-    if (first == now) continue;
-    const std::string missing = FirstMissing(first, now), extra = FirstMissing(now, first);
-    return Invalid("objects[" + object.name() + "]: key " + std::to_string(k + 1) + " " +
-                   (missing.empty() ? "has a face " + extra + " that key 1 has not"
-                                    : "lacks the face " + missing + " of key 1") +
-                   " (vertices as numbered in key 1); the keys of a mesh join the same vertices");
   }
   return aligned;
 }
@@ -133,7 +91,7 @@ BestStart FindBestStart(const Geometry& from, const Geometry& to) {
   return best;
 }
 
-Result<AlignedKeys> AlignKeys(const v1::Object& object, std::span<const Geometry> keys) {
+AlignedKeys AlignKeys(const v1::Object& object, std::span<const Geometry> keys) {
   std::vector<PointPairs> pairs(keys.size());
   for (size_t k = 1; k < keys.size() && object.correspondence() == v1::BY_PAIRS; ++k) {
     for (const v1::Pair& pair : object.key(static_cast<int>(k)).pair()) {

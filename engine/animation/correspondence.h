@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/result.h"
 #include "engine/scene/shapes.h"
 #include "fjord/v1/scene.pb.h"
 
@@ -41,8 +40,8 @@ struct BestStart {
 };
 BestStart FindBestStart(const Geometry& from, const Geometry& to);
 
-// All keys of an object, as its correspondence says. Meshes keep the numbering of the first key.
-// kInvalid where the keys of a mesh have different faces.
-Result<AlignedKeys> AlignKeys(const v1::Object& object, std::span<const Geometry> keys);
+// All keys of an object, as its correspondence says. Meshes keep the numbering of the first key;
+// their faces are the same (validated).
+AlignedKeys AlignKeys(const v1::Object& object, std::span<const Geometry> keys);
 
 }  // namespace fjord

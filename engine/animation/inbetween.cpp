@@ -105,9 +105,7 @@ class SceneAnimation final : public Animation {
       if (Result<> done = read(key.shape()); !done) return done;
     }
     if (keys.empty()) return Invalid("objects[" + object.name() + "] has no shape");
-    Result<Motion> motion = Motion::Make(object, std::move(keys));
-    if (!motion) return motion.error();
-    plans_.push_back({std::move(*motion), shape_tracked, std::nullopt});
+    plans_.push_back({Motion::Make(object, std::move(keys)), shape_tracked, std::nullopt});
     Lighten(shape_tracked, template_.mutable_objects(index));
     return {};
   }

@@ -18,12 +18,11 @@ Vec3 Mixed(const Vec3& a, const Vec3& b, double t) { return a + (b - a) * t; }
 
 }  // namespace
 
-Result<Motion> Motion::Make(const v1::Object& object, std::vector<Geometry> keys) {
+Motion Motion::Make(const v1::Object& object, std::vector<Geometry> keys) {
   FJORD_CHECK(!keys.empty(), object.name());
   Motion motion;
-  Result<AlignedKeys> aligned = AlignKeys(object, keys);
-  if (!aligned) return aligned.error();
-  motion.keys_ = std::move(aligned->points);
+  AlignedKeys aligned = AlignKeys(object, keys);
+  motion.keys_ = std::move(aligned.points);
   for (int k = 0; k < object.key_size(); ++k) {
     motion.frames_.push_back(object.key(k).frame());
     motion.eases_.push_back(object.key(k).ease());
@@ -32,14 +31,14 @@ Result<Motion> Motion::Make(const v1::Object& object, std::vector<Geometry> keys
   for (size_t k = 0; k < keys.size() && !keys[k].colors.empty(); ++k) {
     std::vector<Rgb> colors(motion.keys_[k].size());
     for (size_t v = 0; v < keys[k].colors.size(); ++v) {
-      colors[aligned->number_of[k][v]] = keys[k].colors[v];
+      colors[aligned.number_of[k][v]] = keys[k].colors[v];
     }
     motion.colors_.push_back(std::move(colors));
   }
   for (int p = 0; p < object.point_path_size(); ++p) {
     const v1::PointPath& path = object.point_path(p);
     const size_t key = path.key() - 1;
-    motion.own_paths_[key].push_back({p, aligned->number_of[key][path.vertex() - 1]});
+    motion.own_paths_[key].push_back({p, aligned.number_of[key][path.vertex() - 1]});
   }
   motion.topology_ = std::move(keys[0]);
   motion.topology_.points = motion.keys_[0];

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "engine/animation/correspondence.h"
-#include "engine/base/result.h"
 #include "engine/scene/shapes.h"
 #include "fjord/v1/scene.pb.h"
 
@@ -19,7 +18,7 @@ namespace fjord {
 class Motion {
  public:
   // One geometry for each key, or the object's only shape.
-  static Result<Motion> Make(const v1::Object& object, std::vector<Geometry> keys);
+  static Motion Make(const v1::Object& object, std::vector<Geometry> keys);
 
   // Faces and kind; its points and colours are the first key's.
   const Geometry& topology() const { return topology_; }

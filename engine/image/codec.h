@@ -1,4 +1,4 @@
-// Encoding and decoding picture files: the only place that knows OpenImageIO. Thread-safe.
+// Encoding and decoding picture files, through the module of picture_files.h. Thread-safe.
 #pragma once
 
 #include <string>
@@ -23,7 +23,8 @@ Result<std::string> EncodePicture(const Picture& picture, const PictureInfo& inf
 Result<Picture> DecodePicture(std::string_view bytes, const std::string& name,
                               PictureInfo* info = nullptr);
 
-// Writes to a temporary beside `path`, syncs, renames: a reader never sees half a file.
+// Writes to a temporary beside `path`, syncs, renames: a reader never sees half a file. kIo where
+// something other than a file has that name.
 Result<> WriteFileAtomically(const std::string& path, std::string_view bytes);
 
 }  // namespace fjord

@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -20,6 +21,20 @@ Error FileError(const std::string& path, const std::string& what, int error) {
   return MakeError(ErrorCode::kIo, what + ": " + std::strerror(error) + remedy, Place{path});
 }
 
+// Whether `path` may be replaced by a file: it is one, or nothing is there. A folder, a device or a
+// pipe would be lost.
+Result<> CheckReplaceable(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0)
+    return errno == ELOOP ? Result<>(FileError(path, "cannot be written", errno)) : Ok{};
+  if (S_ISREG(status.st_mode)) return Ok{};
+  return MakeError(ErrorCode::kIo,
+                   std::string("cannot be written: it is ") +
+                       (S_ISDIR(status.st_mode) ? "a folder" : "no regular file") +
+                       "; choose another name",
+                   Place{path});
+}
+
 // Everything written, or the errno of what failed.
 int WriteAll(int fd, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -34,6 +49,7 @@ int WriteAll(int fd, std::string_view bytes) {
 }  // namespace
 
 Result<> WriteFileAtomically(const std::string& path, std::string_view bytes) {
+  if (Result<> replaceable = CheckReplaceable(path); !replaceable.ok()) return replaceable;
   static std::atomic<uint64_t> counter{0};
   const size_t slash = path.find_last_of('/');
   const std::string folder = slash == std::string::npos ? "."

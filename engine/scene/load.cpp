@@ -3,11 +3,9 @@
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 
+#include "engine/formats/read_bytes.h"
 #include "engine/scene/defaults.h"
 #include "engine/scene/limits.h"
 #include "engine/scene/parse.h"
@@ -17,34 +15,6 @@ namespace fjord {
 namespace {
 
 namespace fs = std::filesystem;
-
-Result<std::string> ReadFile(const fs::path& path, uint64_t most) {
-  const std::string name = path.string();
-  std::error_code code;
-  const fs::file_status status = fs::status(path, code);
-  if (status.type() == fs::file_type::not_found) {
-    return MakeError(ErrorCode::kNotFound, "there is no file " + name);
-  }
-  if (fs::is_directory(status)) return MakeError(ErrorCode::kIo, name + " is a folder, not a file");
-  const uint64_t size = fs::is_regular_file(status) ? fs::file_size(path, code) : 0;
-  if (size > most) {
-    return MakeError(ErrorCode::kLimit, name + " has " + std::to_string(size) + " bytes; at most " +
-                                            std::to_string(most) + " are read");
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes;
-  char buffer[1 << 16];
-  while (file.read(buffer, sizeof buffer) || file.gcount() > 0) {
-    bytes.append(buffer, static_cast<size_t>(file.gcount()));
-    if (bytes.size() > most) return MakeError(ErrorCode::kLimit, name + " is too big");
-  }
-  if (!file.eof()) {
-    const std::string why = errno != 0 ? std::strerror(errno) : "reading failed";
-    return MakeError(ErrorCode::kIo, "cannot read " + name + ": " + why);
-  }
-  return bytes;
-}
 
 void ApplySettings(v1::Scene* scene, std::span<const Setting> settings, SceneSource* source,
                    SceneErrors* errors) {
@@ -81,8 +51,8 @@ LoadResult Complete(v1::Scene scene, const AssetReader& assets, std::span<const 
   }
   FillSurroundings(&whole, source->name);
   ApplySettings(&whole, settings, source, &errors);
-  CheckValues(whole, &errors);
-  if (!errors.empty()) {  // shapes are read from sound numbers only
+  CheckValues(&whole, &errors);
+  if (errors.Full()) {  // not every value was looked at
     result.errors = errors.Take();
     return result;
   }
@@ -122,12 +92,15 @@ LoadResult LoadSceneBinary(const std::string& bytes, const std::string& name,
 }
 
 LoadResult LoadSceneFile(const std::string& path, std::span<const Setting> settings) {
-  Result<std::string> text = ReadFile(path, limits::kSceneBytes);
+  Result<std::string> text = ReadBytes(path, limits::kSceneBytes);
   if (!text) return {{}, {text.error()}};
   const fs::path folder = fs::path(path).parent_path();
   const AssetReader reader = [&](const v1::File& file) -> Result<std::string> {
     if (file.path().empty()) return MakeError(ErrorCode::kNotFound, "the file has no path here");
-    return ReadFile(folder / file.path(), limits::kAssetBytes);
+    const std::string asset = (folder / file.path()).string();
+    Result<std::string> bytes = ReadBytes(asset, limits::kAssetBytes);
+    if (!bytes.ok()) return MakeError(bytes.error().code, asset + ": " + bytes.error().message);
+    return bytes;
   };
   return LoadSceneText(*text, path, reader, settings);
 }

@@ -31,6 +31,7 @@ constexpr Row kRows[] = {
     {"fjord.v1.Light.intensity", {0, 1e6, false}},
     {"fjord.v1.Sea.specular", {0, 1000, false}},
     {"fjord.v1.Sea.shininess", {1, 200, false}},
+    {"fjord.v1.Key.frame", {1, limits::kFrames, false}},
     {"fjord.v1.Primitive.radius", {0, kLargest, true}},
     {"fjord.v1.Primitive.tube", {0, kLargest, true}},
     {"fjord.v1.Primitive.radii", {0, kLargest, true}},
@@ -70,7 +71,11 @@ const NumberRange* RangeOf(const google::protobuf::FieldDescriptor& field) {
 
 std::string NumberText(double value) {
   char buffer[32];
-  const auto [end, code] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  const double size = value < 0 ? -value : value;
+  const bool plain = size == 0 || (size >= 1e-4 && size < 1e9);
+  const auto [end, code] =
+      std::to_chars(buffer, buffer + sizeof buffer, value,
+                    plain ? std::chars_format::fixed : std::chars_format::scientific);
   return code == std::errc() ? std::string(buffer, end) : "?";
 }
 

@@ -21,7 +21,8 @@ struct NumberRange {
 // For a Vec3 field: of each of its numbers. Null: any number up to limits::kLargest.
 const NumberRange* RangeOf(const google::protobuf::FieldDescriptor& field);
 
-// "1.5", shortest form that reads back.
+// "1.5", "1000000", "1e+12": the shortest form that reads back, without an exponent where that is
+// easy to read.
 std::string NumberText(double value);
 
 }  // namespace fjord

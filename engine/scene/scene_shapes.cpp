@@ -36,6 +36,32 @@ bool ReadAsset(v1::File* file, const Route& route, const AssetReader& reader,
   return true;
 }
 
+// What is written in the scene, so that each defect has its place; false where there is one.
+bool CheckWritten(const v1::Shape& shape, const Route& route, SceneErrors* errors) {
+  if (shape.has_primitive()) return !errors->RefusedWithin(route);
+  if (!shape.has_mesh()) return true;
+  const v1::Mesh& mesh = shape.mesh();
+  const auto count = static_cast<uint32_t>(mesh.point_size());
+  bool sound = true;
+  const auto fail = [&](int face, int corner, const std::string& message) {
+    const Route place = route.Then("mesh").Then("face", face);
+    errors->Add(corner < 0 ? place : place.Then("v", corner), message);
+    sound = false;
+  };
+  for (int f = 0; f < mesh.face_size() && !errors->Full(); ++f) {
+    const v1::Face& face = mesh.face(f);
+    if (face.v_size() < 3)
+      fail(f, -1, std::to_string(face.v_size()) + " corners; a face needs three or more");
+    for (int i = 0; i < face.v_size(); ++i) {
+      if (face.v(i) >= 1 && face.v(i) <= count) continue;
+      fail(f, i,
+           "there is no vertex " + std::to_string(face.v(i)) + "; the mesh has vertices 1 to " +
+               std::to_string(count));
+    }
+  }
+  return sound;
+}
+
 }  // namespace
 
 Box SceneShapes::BoundsOf(size_t object) const {
@@ -75,6 +101,7 @@ SceneShapes ReadShapes(v1::Scene* scene, const AssetReader& reader,
     for (const auto& [shape, route] : ShapesOf(scene, i)) {
       geometries.emplace_back();
       if (errors->Full()) continue;
+      if (!CheckWritten(*shape, route, errors)) continue;
       const bool is_file = shape->kind_case() == v1::Shape::kFile;
       if (is_file &&
           !ReadAsset(shape->mutable_file(), route.Then("file"), reader, assets, errors)) {

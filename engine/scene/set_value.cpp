@@ -127,6 +127,8 @@ Result<> SetFromText(v1::Scene* scene, const Route& route, std::string_view valu
         SetNumbers(scene, route, three);
         return {};
       }
+      if (NumberCount(step) == 3 && text.find(':') == std::string::npos)
+        return wrong("three numbers, as in \"0 -5 2\"");
       return SetMessage(parent, step, text);
     }
     default:

@@ -24,6 +24,13 @@ Geometry FromMesh(Mesh mesh) {
 // What every shape must keep, wherever it comes from.
 Result<Geometry> Checked(Geometry geometry) {
   const size_t count = geometry.points.size();
+  for (size_t v = 0; v < count; ++v) {
+    const Vec3& point = geometry.points[v];
+    if (std::max({point.x, point.y, point.z, -point.x, -point.y, -point.z}) <= limits::kLargest)
+      continue;
+    return Invalid("vertex " + std::to_string(v + 1) +
+                   " lies beyond 1e12, the largest number a scene may have; scale the shape down");
+  }
   if (geometry.curve) {
     const size_t least = geometry.closed ? 3 : 2;
     if (count < least) {

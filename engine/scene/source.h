@@ -25,22 +25,30 @@ struct SceneSource {
   Place Find(const Route& route) const;
 };
 
-// Collects defects of a scene, at most limits::kErrors.
+// Collects defects of a scene, at most limits::kErrors, and gives them in the order of their
+// places.
 class SceneErrors {
  public:
   SceneErrors(const v1::Scene* scene, const SceneSource* source) : scene_(scene), source_(source) {}
 
   // "file:line:column: error: objects[coast].fractal: message"; the path is of the route.
+  // Nothing is added about a value that was refused: what follows from it is no defect of its own.
   void Add(const Route& route, const std::string& message, ErrorCode code = ErrorCode::kInvalid);
+  // The same, and refuses the value at `route`; of a vector or colour, the whole.
+  void Refuse(const Route& route, const std::string& message);
+  bool Refused(const Route& route) const;
+  bool RefusedWithin(const Route& route) const;
   void AddAt(Error error);
-  bool Full() const;
+  bool Full() const { return full_; }
   bool empty() const { return errors_.empty(); }
-  Errors Take() { return std::move(errors_); }
+  Errors Take();
 
  private:
   const v1::Scene* scene_;
   const SceneSource* source_;
   Errors errors_;
+  bool full_ = false;
+  std::vector<Route> refused_;
 };
 
 }  // namespace fjord

@@ -53,9 +53,14 @@ void CheckCamera(const v1::Camera& camera, SceneErrors* errors) {
     errors->Add(route.Then("up"), "up has no direction");
   }
   if (!camera.has_eye() || !camera.has_look_at()) return;
+  if (errors->Refused(route.Then("eye")) || errors->Refused(route.Then("look_at"))) return;
   const Vec3 view = ToVec3(camera.look_at()) - ToVec3(camera.eye());
-  if (Length(view) == 0) {
-    errors->Add(route.Then("eye"), "eye and look_at are at one place");
+  if (!(Length(ToVec3(camera.eye())) <= limits::kFarthest)) {
+    errors->Add(route.Then("eye"),
+                "to have everything in view the eye would stand beyond 1e15; mend the transforms, "
+                "or give eye and look_at");
+  } else if (Length(view) == 0) {
+    errors->Add(route.Then("eye"), "eye and look_at are at one place; move one of them");
   } else if (camera.has_up() && Length(ToVec3(camera.up())) > 0 &&
              Length(glm::cross(Unit(view), Unit(ToVec3(camera.up())))) < 1e-9) {
     errors->Add(route.Then("up"), "up runs along the view; turn it");
@@ -95,6 +100,7 @@ void CheckObject(const v1::Scene& scene, int index, const SceneShapes& shapes,
   const Route place = route.Then("material");
   for (int i = 1; i < material.ramp_size(); ++i) {
     if (material.ramp(i).height() > material.ramp(i - 1).height()) continue;
+    if (errors->Refused(place.Then("ramp", i - 1).Then("height"))) continue;
     errors->Add(place.Then("ramp", i).Then("height"),
                 NumberText(material.ramp(i).height()) + " comes after " +
                     NumberText(material.ramp(i - 1).height()) + "; heights ascend");

@@ -1,8 +1,11 @@
 // What a scene must keep. Each check adds every defect it finds, with the field it is about.
 //
 // Order of use (load.cpp): counts and values on what was written; then, with shapes read and plain
-// defaults filled in, the rest.
+// defaults filled in, the rest. All of it runs however many defects were found before.
 #pragma once
+
+#include <span>
+#include <string>
 
 #include "engine/scene/scene_shapes.h"
 #include "engine/scene/source.h"
@@ -13,7 +16,8 @@ namespace fjord {
 bool CheckCounts(const v1::Scene& scene, SceneErrors* errors);
 
 // Every number finite, not absurd and in its range; every enumerator known; every text printable.
-void CheckValues(const v1::Scene& scene, SceneErrors* errors);
+// A value that is not is refused and another put in its place, so that the rest can be judged.
+void CheckValues(v1::Scene* scene, SceneErrors* errors);
 
 // Names, camera, lights, and all that follows.
 void CheckScene(v1::Scene* scene, const SceneShapes& shapes, SceneErrors* errors);
@@ -22,6 +26,10 @@ void CheckScene(v1::Scene* scene, const SceneShapes& shapes, SceneErrors* errors
 void CheckObject(const v1::Scene& scene, int object, const SceneShapes& shapes,
                  SceneErrors* errors);
 void CheckKeys(const v1::Scene& scene, int object, const SceneShapes& shapes, SceneErrors* errors);
+// How the faces of a key differ from those of the key before; empty: not at all. number_of[v]: the
+// vertex of the key before that vertex v has come from, both from 0.
+std::string FaceDifference(const Geometry& before, const Geometry& now,
+                           std::span<const uint32_t> number_of);
 void CheckFractal(const v1::Scene& scene, int object, const SceneShapes& shapes,
                   SceneErrors* errors);
 // Opens what tracks write to (camera.eye where only its track is given).

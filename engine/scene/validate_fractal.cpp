@@ -2,6 +2,7 @@
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
+#include <map>
 
 #include "engine/fractal/registry.h"
 #include "engine/scene/limits.h"
@@ -28,8 +29,8 @@ FractalSettings SettingsOf(const MethodInfo& method, const v1::Fractal& fractal)
   settings.direction = static_cast<Direction>(fractal.direction());
   settings.variant = static_cast<Variant>(fractal.variant());
   settings.split = static_cast<Split>(fractal.split());
-  settings.max_level = fractal.max_level();
-  settings.uniforms = fractal.uniforms();
+  if (fractal.has_max_level()) settings.max_level = fractal.max_level();
+  if (fractal.has_uniforms()) settings.uniforms = fractal.uniforms();
   settings.increments = static_cast<Increments>(fractal.increments());
   return settings;
 }
@@ -59,6 +60,29 @@ void CheckFineness(const v1::Fractal& fractal, const Route& route, SceneErrors* 
   if (given > 1) errors->Add(route, "give one of epsilon, pixels and viewing, not several");
 }
 
+void AddDefect(const SettingDefect& defect, const Route& route, SceneErrors* errors) {
+  // the path in front says which field it is
+  std::string text = defect.message;
+  for (const std::string& start :
+       {std::string(defect.field) + " is ", std::string(defect.field) + " "}) {
+    if (text.compare(0, start.size(), start) == 0) text.erase(0, start.size());
+  }
+  errors->Add(route.Then(defect.field), text);
+}
+
+// Where the shape could not be read, the method that goes with it is not known: what no method
+// takes is wrong all the same.
+void CheckForAnyMethod(const v1::Fractal& fractal, const Route& route, SceneErrors* errors) {
+  std::map<std::string_view, std::vector<SettingDefect>> by_field;
+  for (const MethodInfo& method : FractalMethods()) {
+    for (SettingDefect& defect : FindSettingDefects(method, SettingsOf(method, fractal)))
+      by_field[defect.field].push_back(std::move(defect));
+  }
+  for (const auto& [field, defects] : by_field) {
+    if (defects.size() == FractalMethods().size()) AddDefect(defects[0], route, errors);
+  }
+}
+
 }  // namespace
 
 void CheckFractal(const v1::Scene& scene, int object, const SceneShapes& shapes,
@@ -68,7 +92,10 @@ void CheckFractal(const v1::Scene& scene, int object, const SceneShapes& shapes,
   const v1::Fractal& fractal = message.fractal();
   const Route route = Route().Then("objects", object).Then("fractal");
   CheckFineness(fractal, route, errors);
-  if (fractal.method().empty()) return;  // the shape was not read; said already
+  if (fractal.method().empty()) {
+    CheckForAnyMethod(fractal, route, errors);
+    return;
+  }
   const MethodInfo* method = FindFractalMethod(fractal.method());
   if (method == nullptr) {
     std::vector<std::string> names;
@@ -85,15 +112,8 @@ void CheckFractal(const v1::Scene& scene, int object, const SceneShapes& shapes,
                     ", and the shape is a " + (geometry->curve ? "curve" : "mesh"));
   }
   CheckKnown(*method, fractal, route, errors);
-  for (const SettingDefect& defect : FindSettingDefects(*method, SettingsOf(*method, fractal))) {
-    // the path in front says which field it is
-    std::string text = defect.message;
-    for (const std::string& start :
-         {std::string(defect.field) + " is ", std::string(defect.field) + " "}) {
-      if (text.compare(0, start.size(), start) == 0) text.erase(0, start.size());
-    }
-    errors->Add(route.Then(defect.field), text);
-  }
+  for (const SettingDefect& defect : FindSettingDefects(*method, SettingsOf(*method, fractal)))
+    AddDefect(defect, route, errors);
 }
 
 }  // namespace fjord

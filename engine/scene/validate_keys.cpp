@@ -1,5 +1,6 @@
 // CheckKeys of validate.h: key pictures, how their points correspond, and paths.
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "engine/scene/limits.h"
@@ -17,15 +18,12 @@ void CheckFrames(const v1::Object& object, const Route& route, SceneErrors* erro
   for (int k = 0; k < object.key_size(); ++k) {
     const v1::Key& key = object.key(k);
     const Route place = route.Then("key", k);
+    const bool follows = k > 0 && !errors->Refused(route.Then("key", k - 1).Then("frame"));
     if (!key.has_frame()) {
       errors->Add(place, "frame is missing");
-    } else if (key.frame() == 0 || key.frame() > limits::kFrames) {
-      errors->Add(place.Then("frame"), "frame " + std::to_string(key.frame()) +
-                                           " is out of range: 1 to " +
-                                           std::to_string(limits::kFrames));
-    } else if (k > 0 && key.frame() == object.key(k - 1).frame()) {
+    } else if (follows && key.frame() == object.key(k - 1).frame()) {
       errors->Add(place.Then("frame"), "two keys at frame " + std::to_string(key.frame()));
-    } else if (k > 0 && key.frame() < object.key(k - 1).frame()) {
+    } else if (follows && key.frame() < object.key(k - 1).frame()) {
       errors->Add(place.Then("frame"),
                   "frame " + std::to_string(key.frame()) + " comes after frame " +
                       std::to_string(object.key(k - 1).frame()) + "; keys ascend");
@@ -97,8 +95,9 @@ void CheckPaths(const v1::Object& object, const Route& route, const SceneShapes&
   }
 }
 
-// Pairs of one key with the key before: in range, each point once, outlines in order.
-void CheckPairs(const v1::Object& object, int k, const Geometry& before, const Geometry& now,
+// Pairs of one key with the key before: in range, each point once, outlines in order. False where
+// they are not.
+bool CheckPairs(const v1::Object& object, int k, const Geometry& before, const Geometry& now,
                 const Route& route, SceneErrors* errors) {
   const v1::Key& key = object.key(k);
   std::vector<bool> from_used(before.points.size() + 1), to_used(now.points.size() + 1);
@@ -122,15 +121,15 @@ void CheckPairs(const v1::Object& object, int k, const Geometry& before, const G
     check(key.pair(p).from(), before.points.size(), &from_used, place.Then("from"), k - 1);
     check(key.pair(p).to(), now.points.size(), &to_used, place.Then("to"), k);
   }
-  if (!sound) return;
+  if (!sound) return false;
   if (!now.curve) {
     for (size_t v = 1; v <= before.points.size(); ++v) {
       if (from_used[v]) continue;
       errors->Add(route, "vertex " + std::to_string(v) + " of " + KeyName(object, k - 1) +
                              " has no pair; meshes need a pair for every vertex");
-      return;
+      return false;
     }
-    return;
+    return true;
   }
   std::vector<std::pair<uint32_t, uint32_t>> pairs;
   for (const v1::Pair& pair : key.pair()) pairs.emplace_back(pair.from(), pair.to());
@@ -145,10 +144,26 @@ void CheckPairs(const v1::Object& object, int k, const Geometry& before, const G
       culprit = pairs[i].first;
     }
   }
-  if (descents > (now.closed ? 1 : 0)) {
-    errors->Add(route, "the pairs cross near vertex " + std::to_string(culprit) +
-                           ": along an outline both sides must run in the same order");
+  if (descents <= (now.closed ? 1 : 0)) return true;
+  errors->Add(route, "the pairs cross near vertex " + std::to_string(culprit) +
+                         ": along an outline both sides must run in the same order");
+  return false;
+}
+
+// The keys of a mesh join the same vertices to the same faces. Pairs are sound.
+void CheckFaces(const v1::Object& object, int k, const Geometry& before, const Geometry& now,
+                const Route& route, SceneErrors* errors) {
+  std::vector<uint32_t> number_of(now.points.size());
+  std::iota(number_of.begin(), number_of.end(), 0u);
+  if (object.correspondence() == v1::BY_PAIRS) {
+    for (const v1::Pair& pair : object.key(k).pair()) number_of[pair.to() - 1] = pair.from() - 1;
   }
+  const std::string difference = FaceDifference(before, now, number_of);
+  if (difference.empty()) return;
+  errors->Add(route.Then("shape"),
+              "other faces than " + KeyName(object, k - 1) + ": it " + difference +
+                  " (vertices as numbered there); move the vertices and leave the faces, or say "
+                  "by pairs which vertex becomes which (correspondence: BY_PAIRS)");
 }
 
 void CheckCorrespondence(const v1::Object& object, int k, const Geometry& before,
@@ -174,7 +189,9 @@ void CheckCorrespondence(const v1::Object& object, int k, const Geometry& before
                                                     : "the keys of a mesh need equally many"));
     return;
   }
-  if (object.correspondence() == v1::BY_PAIRS) CheckPairs(object, k, before, now, route, errors);
+  const bool sound =
+      object.correspondence() != v1::BY_PAIRS || CheckPairs(object, k, before, now, route, errors);
+  if (sound && !now.curve) CheckFaces(object, k, before, now, route, errors);
   if (object.key(k).pair_size() > 0 && object.correspondence() != v1::BY_PAIRS) {
     errors->Add(route.Then("pair", 0), "pairs need correspondence: BY_PAIRS");
   }

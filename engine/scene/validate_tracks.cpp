@@ -127,7 +127,8 @@ class TrackChecker {
       const Route key_route = here.Then("key", k);
       if (!key.has_frame()) {
         errors_->Add(key_route, "frame is missing");
-      } else if (k > 0 && key.frame() <= track.key(k - 1).frame()) {
+      } else if (k > 0 && key.frame() <= track.key(k - 1).frame() &&
+                 !errors_->Refused(here.Then("key", k - 1).Then("frame"))) {
         errors_->Add(key_route.Then("frame"),
                      "frame " + NumberText(key.frame()) + " comes after frame " +
                          NumberText(track.key(k - 1).frame()) + "; keys ascend, one at a frame");

@@ -28,17 +28,20 @@ bool IsPrintable(const std::string& text) {
   return follow == 0;
 }
 
+// Takes the place of a number that is refused: within every range of ranges.cpp.
+constexpr uint32_t kStandIn = 1;
+
 class ValueChecker {
  public:
   explicit ValueChecker(SceneErrors* errors) : errors_(errors) {}
 
   // `around`: the range of the Vec3 field that this message is the value of, or null.
-  void Check(const Message& message, const NumberRange* around) {
-    const Reflection& reflection = *message.GetReflection();
+  void Check(Message* message, const NumberRange* around) {
+    const Reflection& reflection = *message->GetReflection();
     std::vector<const FieldDescriptor*> fields;
-    reflection.ListFields(message, &fields);
+    reflection.ListFields(*message, &fields);
     for (const FieldDescriptor* field : fields) {
-      const int count = field->is_repeated() ? reflection.FieldSize(message, field) : 1;
+      const int count = field->is_repeated() ? reflection.FieldSize(*message, field) : 1;
       for (int i = 0; i < count && !errors_->Full(); ++i) {
         route_.steps.push_back({field, field->is_repeated() ? i : -1});
         CheckField(message, reflection, *field, field->is_repeated() ? i : -1, around);
@@ -48,34 +51,39 @@ class ValueChecker {
   }
 
  private:
-  void CheckField(const Message& message, const Reflection& reflection,
-                  const FieldDescriptor& field, int index, const NumberRange* around) {
+  void CheckField(Message* message, const Reflection& reflection, const FieldDescriptor& field,
+                  int index, const NumberRange* around) {
     switch (field.cpp_type()) {
-      case FieldDescriptor::CPPTYPE_DOUBLE:
-        CheckNumber(index < 0 ? reflection.GetDouble(message, &field)
-                              : reflection.GetRepeatedDouble(message, &field, index),
-                    around != nullptr ? around : RangeOf(field));
+      case FieldDescriptor::CPPTYPE_DOUBLE: {
+        const double value = index < 0 ? reflection.GetDouble(*message, &field)
+                                       : reflection.GetRepeatedDouble(*message, &field, index);
+        if (IsSound(value, around != nullptr ? around : RangeOf(field))) return;
+        if (index < 0) reflection.SetDouble(message, &field, kStandIn);
+        if (index >= 0) reflection.SetRepeatedDouble(message, &field, index, kStandIn);
         return;
+      }
       case FieldDescriptor::CPPTYPE_UINT32:
-        if (index < 0) CheckNumber(reflection.GetUInt32(message, &field), RangeOf(field));
+        if (index >= 0) return;
+        if (!IsSound(reflection.GetUInt32(*message, &field), RangeOf(field)))
+          reflection.SetUInt32(message, &field, kStandIn);
         return;
       case FieldDescriptor::CPPTYPE_ENUM: {
-        const int value = index < 0 ? reflection.GetEnumValue(message, &field)
-                                    : reflection.GetRepeatedEnumValue(message, &field, index);
-        if (field.enum_type()->FindValueByNumber(value) == nullptr) {
-          errors_->Add(route_, "there is no choice number " + std::to_string(value));
-        }
+        if (index >= 0) return;
+        const int value = reflection.GetEnumValue(*message, &field);
+        if (field.enum_type()->FindValueByNumber(value) != nullptr) return;
+        errors_->Refuse(route_, "there is no choice number " + std::to_string(value));
+        reflection.ClearField(message, &field);
         return;
       }
       case FieldDescriptor::CPPTYPE_STRING: {
         std::string scratch;
-        const std::string& text = reflection.GetStringReference(message, &field, &scratch);
-        if (!IsPrintable(text)) errors_->Add(route_, "the text is not printable UTF-8");
+        const std::string& text = reflection.GetStringReference(*message, &field, &scratch);
+        if (!IsPrintable(text)) errors_->Refuse(route_, "the text is not printable UTF-8");
         return;
       }
       case FieldDescriptor::CPPTYPE_MESSAGE:
-        Check(index < 0 ? reflection.GetMessage(message, &field)
-                        : reflection.GetRepeatedMessage(message, &field, index),
+        Check(index < 0 ? reflection.MutableMessage(message, &field)
+                        : reflection.MutableRepeatedMessage(message, &field, index),
               RangeOf(field));
         return;
       default:
@@ -83,15 +91,18 @@ class ValueChecker {
     }
   }
 
-  void CheckNumber(double value, const NumberRange* range) {
+  bool IsSound(double value, const NumberRange* range) {
     if (!(value - value == 0)) {
-      errors_->Add(route_, "not a finite number");
+      errors_->Refuse(route_, "not a finite number");
     } else if (value > limits::kLargest || value < -limits::kLargest) {
-      errors_->Add(route_, NumberText(value) + " cannot be meant; numbers are at most " +
-                               NumberText(limits::kLargest));
+      errors_->Refuse(route_, NumberText(value) + " cannot be meant; numbers are at most " +
+                                  NumberText(limits::kLargest));
     } else if (range != nullptr && !range->Holds(value)) {
-      errors_->Add(route_, NumberText(value) + " is out of range: " + range->ToString());
+      errors_->Refuse(route_, NumberText(value) + " is out of range: " + range->ToString());
+    } else {
+      return true;
     }
+    return false;
   }
 
   SceneErrors* errors_;
@@ -146,7 +157,7 @@ bool CheckCounts(const v1::Scene& scene, SceneErrors* errors) {
   return within;
 }
 
-void CheckValues(const v1::Scene& scene, SceneErrors* errors) {
+void CheckValues(v1::Scene* scene, SceneErrors* errors) {
   ValueChecker(errors).Check(scene, nullptr);
 }
 

@@ -1,6 +1,7 @@
 // Bad input: one clear message that names place and remedy, the documented exit code.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tests/client/run_program.h"
 
@@ -49,7 +50,9 @@ class BadInputTest : public ::testing::Test {
 TEST_F(BadInputTest, FilesThatAreNone) {
   const ProgramRun missing = RunFjord({"render", folder_ / "no.scene", "-o", folder_ / "out"});
   EXPECT_EQ(missing.code, 1);
-  EXPECT_THAT(missing.err, HasSubstr("no.scene"));
+  EXPECT_THAT(missing.err, HasSubstr("no.scene: error: there is no such file; check the name"));
+  ExpectRefused("objects { name: \"a\"\n shape { file { path: \"no.std\" } } }\n", ":2:17",
+                "no.std: there is no such file; check the name");
   ExpectRefused("", "", "");
   ExpectRefused("name: \"x\"\nobjects {\n  name: \"a\"\n", ":", "");
   ExpectRefused(std::string("\x7f"
@@ -89,8 +92,8 @@ TEST_F(BadInputTest, KnobsOutOfRange) {
 }
 
 TEST_F(BadInputTest, IndicesThatLeadNowhere) {
-  ExpectRefused(WithFace("v: 0 v: 1 v: 2"), ":4:", "face 1 names vertex 0");
-  ExpectRefused(WithFace("v: 1 v: 2 v: 4"), ":4:", "face 1 names vertex 4");
+  ExpectRefused(WithFace("v: 0 v: 1 v: 2"), ":6:", "there is no vertex 0");
+  ExpectRefused(WithFace("v: 1 v: 2 v: 4"), ":6:", "there is no vertex 4");
   ExpectRefused(WithFace("v: 1 v: 2 v: -3"), ":6:", "");
 }
 
@@ -112,7 +115,8 @@ TEST_F(BadInputTest, CorrespondenceToMissingPoints) {
 TEST_F(BadInputTest, SeveralDefectsAtOnce) {
   const std::string file = folder_.Write("bad.scene", WithFractal("epsilon: -1 pixels: -2"));
   const ProgramRun run = RunFjord({"check", file});
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 3) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("give one of epsilon, pixels and viewing"));
 }
 
 TEST_F(BadInputTest, FramesOutsideTheAnimation) {
@@ -126,6 +130,55 @@ TEST_F(BadInputTest, FramesOutsideTheAnimation) {
     EXPECT_EQ(run.code, 1) << arguments[0] << run.err;
     EXPECT_THAT(run.err, HasSubstr("1-5")) << arguments[0];
   }
+}
+
+TEST_F(BadInputTest, WhatIsNoFileIsNotReplaced) {
+  const std::string scene = folder_.Write("tiny.scene", TinyScene(1));
+  const std::string pipe = folder_ / "pipe.svg", circle = folder_ / "circle.svg";
+  folder_.Write("folder.svg/keep", "");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::filesystem::create_symlink("circle.svg", circle);
+  for (const std::string& name : {folder_ / "folder.svg", pipe, circle}) {
+    const ProgramRun run = RunFjord({"preview", scene, "--frame", "1", "-o", name});
+    EXPECT_EQ(run.code, 1) << name;
+    EXPECT_THAT(run.err, HasSubstr(name + ": error: cannot be written: ")) << run.err;
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
+TEST_F(BadInputTest, LinksThatGoRoundInCircles) {
+  folder_.Write("pictures/a.png", "no picture");
+  for (const char* name : {"up", "again"})
+    std::filesystem::create_directory_symlink("..", folder_ / (std::string("pictures/") + name));
+  const ProgramRun run = RunFjord({"digest", folder_ / "pictures"});
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err.substr(0, 1000);
+  std::filesystem::create_symlink("circle.scene", folder_ / "circle.scene");
+  EXPECT_THAT(
+      RunFjord({"check", folder_ / "circle.scene"}).err,
+      HasSubstr("circle.scene: error: cannot be opened: Too many levels of symbolic links"));
+}
+
+TEST_F(BadInputTest, ShapesBeyondAllMeasure) {
+  folder_.Write("far.std", "far\ndata 3 1\n0 0 0\n1e13 0 0\n0 1 0\n3 1 2 3\n");
+  ExpectRefused("objects { name: \"a\"\n shape { file { path: \"far.std\" } } }\n", ":2:2",
+                "objects[a].shape: vertex 2 lies beyond 1e12");
+  ExpectRefused(
+      "objects { name: \"a\" shape { primitive { kind: SPHERE radius: 1e9 } }\n"
+      "  transform { scale { x: 1e9 y: 1 z: 1 } } }\n",
+      "", "camera.eye: to have everything in view the eye would stand beyond 1e15");
+}
+
+TEST_F(BadInputTest, AFolderWithFramesOfAnotherSceneIsLeftAlone) {
+  const std::string scene = folder_.Write("tiny.scene", TinyScene(1));
+  const std::string out = folder_ / "out";
+  ASSERT_EQ(RunFjord({"render", scene, "-o", out}).code, 0);
+  const std::string manifest = ReadAll(out + "/manifest.json");
+  const ProgramRun other = RunFjord({"render", scene, "-o", out, "--set", "name=other"});
+  EXPECT_EQ(other.code, 1);
+  EXPECT_THAT(other.err,
+              HasSubstr(out + ": error: the folder holds frames of another scene, tiny"));
+  EXPECT_THAT(other.err, HasSubstr("name another folder with -o"));
+  EXPECT_EQ(ReadAll(out + "/manifest.json"), manifest);
 }
 
 TEST_F(BadInputTest, ShapesWithDefectsAreNamedByLine) {

@@ -52,6 +52,8 @@ TEST(CliTest, WrongUsageIsCode2AndOneLine) {
       {"submit", "a.scene", "--verify", "2"},
       {"preview", "a.scene", "--frame", "1", "-o", "a.gif"},
       {"fractalize", "a.scene", "--frame", "1", "-o", "a.gif"},
+      {"movie", "out", "-o", "a.gif"},
+      {"sheet", "out", "-o", "a.jpg"},
       {"fractalize", "a.scene", "--frame", "0", "-o", "a.obj"},
       {"presets", "nothing"},
       {"digest"},
@@ -67,6 +69,63 @@ TEST(CliTest, WrongUsageIsCode2AndOneLine) {
     EXPECT_THAT(run.err, HasSubstr("error: ")) << line;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << line << "\n" << run.err;
   }
+}
+
+TEST(CliTest, CheckAnimationTellsWhetherAnythingPops) {
+  const ScratchFolder folder;
+  const std::string good = folder.Write("good.scene", TinyScene(5));
+  const ProgramRun calm = RunFjord({"check", "--animation", good});
+  EXPECT_EQ(calm.code, 0) << calm.err;
+  EXPECT_THAT(calm.err, HasSubstr("good.scene: object hill: the same vertices in every frame"));
+  EXPECT_EQ(JsonOf(RunFjord({"check", "--animation", "--json", good}))[0]["animation"][0]["good"],
+            true);
+  // a line whose plane tumbles over
+  const std::string text =
+      "output { width: 64 height: 48 frames: 20 }\nobjects { name: \"bolt\"\n"
+      "key { frame: 1 shape { polyline { point {} point { x: 1 y: 1 } point { x: 2 } } } }\n"
+      "key { frame: 10 shape { polyline { point {} point { x: 1 y: .1 z: 1 } point { x: 2 } } } }\n"
+      "key { frame: 20 shape { polyline { point {} point { x: 1 y: -1 } point { x: 2 } } } }\n"
+      "fractal { epsilon: .1 } }\n";
+  const std::string pops = folder.Write("pops.scene", text);
+  const ProgramRun wild = RunFjord({"check", "--animation", pops});
+  EXPECT_EQ(wild.code, 1);
+  EXPECT_THAT(wild.err, HasSubstr("pops.scene: error: object bolt: a vertex pops between frames 10 "
+                                  "and 11"));
+  EXPECT_THAT(wild.err, HasSubstr("use direction: UP"));
+  const ProgramRun json = RunFjord({"check", "--animation", "--json", pops});
+  EXPECT_EQ(json.code, 1);
+  EXPECT_EQ(JsonOf(json)[0]["animation"][0]["good"], false);
+  // as the message advises
+  std::string calmed = text;
+  calmed.replace(calmed.find("epsilon"), 0, "direction: UP ");
+  EXPECT_EQ(RunFjord({"check", "--animation", folder.Write("up.scene", calmed)}).code, 0);
+  EXPECT_EQ(RunFjord({"check", pops}).code, 0) << "a scene without defects otherwise";
+}
+
+TEST(CliTest, PictureLibrariesAreLoadedWhenAPictureIsReadOrWritten) {
+  // the programs themselves are linked with none, so that farm commands start in no time
+  for (const char* program : {FJORD_PROGRAM, FJORD_WORKER_PROGRAM, FJORD_SERVER_PROGRAM}) {
+    const ProgramRun libraries = RunProgram({"ldd", program});
+    EXPECT_EQ(libraries.code, 0) << libraries.err;
+    EXPECT_THAT(libraries.out, Not(HasSubstr("OpenImageIO"))) << program;
+  }
+  // installed, they find their module; without it they say so
+  const ScratchFolder folder;
+  const std::string scene = folder.Write("tiny.scene", TinyScene(1));
+  folder.Write("bin/keep", "");
+  const std::string program = folder / "bin/fjord", module = "lib/fjord/fjord_picture_files.so";
+  std::filesystem::copy_file(FJORD_PROGRAM, program);
+  const ProgramRun missing = RunProgram({program, "render", scene, "-o", folder / "out"});
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_THAT(missing.err, AllOf(HasSubstr(folder / module), HasSubstr("install Fjord anew")));
+  folder.Write(module, "no module");
+  const ProgramRun broken = RunProgram({program, "render", scene, "-o", folder / "out"});
+  EXPECT_EQ(broken.code, 1);
+  EXPECT_THAT(broken.err, HasSubstr(folder / module + ": error: cannot be used"));
+  std::filesystem::copy_file(FJORD_PICTURE_FILES, folder / module,
+                             std::filesystem::copy_options::overwrite_existing);
+  const ProgramRun whole = RunProgram({program, "render", scene, "-o", folder / "out"});
+  EXPECT_EQ(whole.code, 0) << whole.err;
 }
 
 TEST(CliTest, TheProgramItselfRuns) {

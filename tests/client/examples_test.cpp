@@ -34,8 +34,8 @@ TEST_P(ExamplesTest, IsGoodAndRendersAtATinySize) {
   EXPECT_EQ(run.code, 0) << run.err;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ExamplesTest, ::testing::ValuesIn(Examples()), [](const auto& info) {
-  std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(All, ExamplesTest, ::testing::ValuesIn(Examples()), [](const auto& file) {
+  std::string name = file.param;
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
   return name;

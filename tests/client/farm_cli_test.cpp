@@ -28,7 +28,9 @@ class FakeJobs : public v1::Jobs::Service {
   }
 
   grpc::Status Submit(grpc::ServerContext*, const v1::SubmitRequest*,
-                      v1::SubmitResponse*) override {
+                      v1::SubmitResponse* response) override {
+    response->set_job_id("7");
+    if (takes_jobs) return grpc::Status::OK;
     return {grpc::StatusCode::FAILED_PRECONDITION, "protocol 2.0 is spoken here"};
   }
 
@@ -51,6 +53,7 @@ class FakeJobs : public v1::Jobs::Service {
   }
 
   v1::JobState end = v1::DONE;
+  bool takes_jobs = false;
 
  private:
   static v1::Job Job(v1::JobState state) {
@@ -71,6 +74,16 @@ class FakeJobs : public v1::Jobs::Service {
   std::atomic<int> streams_{0};
 };
 
+class FakeBlobs : public v1::Blobs::Service {
+ public:
+  grpc::Status Missing(grpc::ServerContext*, const v1::MissingRequest*,
+                       v1::MissingResponse*) override {
+    if (has_all) return grpc::Status::OK;
+    return {grpc::StatusCode::UNIMPLEMENTED, ""};
+  }
+  bool has_all = false;
+};
+
 class FarmCliTest : public ::testing::Test {
  protected:
   // Starts a server with that service (may be null); its address.
@@ -79,7 +92,7 @@ class FarmCliTest : public ::testing::Test {
     int port = 0;
     builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
     if (service != nullptr) builder.RegisterService(service);
-    builder.RegisterService(&health_of_nothing_);
+    builder.RegisterService(&blobs_);
     server_ = builder.BuildAndStart();
     return "127.0.0.1:" + std::to_string(port);
   }
@@ -88,7 +101,7 @@ class FarmCliTest : public ::testing::Test {
     if (server_) server_->Shutdown();
   }
 
-  v1::Blobs::Service health_of_nothing_;  // a service that has nothing
+  FakeBlobs blobs_;
   FakeJobs jobs_;
   std::unique_ptr<grpc::Server> server_;
   const ScratchFolder folder_;
@@ -162,6 +175,22 @@ TEST_F(FarmCliTest, WatchOfAServerThatStaysAwayIsCode3) {
   jobs_.end = v1::JOB_STATE_UNSPECIFIED;
   const ProgramRun run = RunFjordAnew({"watch", "7", "--patience", "0", "--server", Serve(&jobs_)});
   EXPECT_EQ(run.code, 3) << run.err;
+}
+
+TEST_F(FarmCliTest, SubmitOfAServerThatGoesAwayStillSaysTheJob) {
+  jobs_.takes_jobs = blobs_.has_all = true;
+  jobs_.end = v1::JOB_STATE_UNSPECIFIED;
+  const std::string scene = folder_.Write("tiny.scene", TinyScene(2));
+  const ProgramRun run = RunFjordAnew(
+      {"submit", scene, "--wait", "--json", "--patience", "0", "--server", Serve(&jobs_)});
+  EXPECT_EQ(run.code, 3) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("fjord watch 7 follows it"));
+  EXPECT_EQ(nlohmann::json::parse(run.out)["id"], "7");
+}
+
+TEST(FarmClientTest, AServerWithoutAPortIsAtTheUsualOne) {
+  EXPECT_EQ(FarmClient("localhost").address(), "localhost:7433");
+  EXPECT_EQ(FarmClient("localhost:1").address(), "localhost:1");
 }
 
 TEST_F(FarmCliTest, WatchOfAFailedJobIsCode1WithItsError) {

@@ -110,6 +110,19 @@ TEST_F(RenderTest, CtrlCLeavesFinishedFramesAndAManifestToGoOnFrom) {
   EXPECT_EQ(Digests(out), digests);
 }
 
+TEST_F(RenderTest, ClosedStandardStreamsDoNotEndUpInPictures) {
+  scene_ = folder_.Write("tiny.scene", TinyScene(1000));
+  const std::string out = folder_ / "out";
+  RunningProgram program(
+      {"sh", "-c", R"(exec "$0" render "$1" -o "$2" <&- >&- 2>&-)", FJORD_PROGRAM, scene_, out});
+  EXPECT_TRUE(WaitUntil([&] { return FilesEndingIn(out, ".png") >= 1; }));
+  for (const char* stream : {"1", "2"}) {  // a library takes 0 before main()
+    const std::string link = "/proc/" + std::to_string(program.pid()) + "/fd/" + stream;
+    std::error_code error;
+    EXPECT_EQ(fs::read_symlink(link, error), "/dev/null") << stream;
+  }
+}
+
 TEST_F(RenderTest, TwoAtOnceInOneFolderAreRefusedInTwoFoldersEqual) {
   const std::string digests = Reference(6);
   const std::string locked = folder_ / "locked";

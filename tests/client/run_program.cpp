@@ -1,6 +1,7 @@
 #include "tests/client/run_program.h"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/prctl.h>
@@ -15,6 +16,7 @@
 #include <thread>
 
 #include "client/cli.h"
+#include "engine/image/picture_files.h"
 
 namespace fjord::testing {
 
@@ -96,6 +98,7 @@ ProgramRun RunProgram(const std::vector<std::string>& argv, const ProgramOptions
 }
 
 ProgramRun RunFjord(std::vector<std::string> arguments, const ProgramOptions& options) {
+  EXPECT_TRUE(OpenPictureFiles().ok());
   arguments.insert(arguments.begin(), "");
   return RunProgram(arguments, options);
 }

@@ -57,9 +57,8 @@ class RunningProgram {
 
 ProgramRun RunProgram(const std::vector<std::string>& argv, const ProgramOptions& options = {});
 
-// fjord ARGS... as a copy of this process that runs the command line: starting the program anew
-// takes most of a second, for the picture libraries it is linked with. Not in a process that runs
-// gRPC.
+// fjord ARGS... as a copy of this process that runs the command line: the picture libraries, which
+// take a quarter of a second to load, are there already. Not in a process that runs gRPC.
 ProgramRun RunFjord(std::vector<std::string> arguments, const ProgramOptions& options = {});
 // fjord ARGS..., the program itself.
 ProgramRun RunFjordAnew(std::vector<std::string> arguments, const ProgramOptions& options = {});

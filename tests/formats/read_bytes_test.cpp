@@ -44,7 +44,7 @@ TEST_F(ReadBytesTest, SaysWhatIsWrong) {
   EXPECT_EQ(ReadBytes(missing, 10).error().code, ErrorCode::kNotFound);
   ExpectError(ReadBytes(folder_, 10), folder_, "is a folder");
   const std::string long_one = Write("long", "12345678901");
-  ExpectError(ReadBytes(long_one, 10), long_one, "larger than 10 bytes");
+  ExpectError(ReadBytes(long_one, 10), long_one, "has 11 bytes; at most 10 are read");
   EXPECT_EQ(ReadBytes(long_one, 10).error().code, ErrorCode::kLimit);
   EXPECT_EQ(ReadBytes("/dev/zero", 100'000).error().code, ErrorCode::kLimit);
 }
@@ -54,7 +54,7 @@ TEST_F(ReadBytesTest, HugeFilesAreRefusedWithoutReadingThem) {
   const std::string path = Write("huge.std", "data 3 1\n");
   std::filesystem::resize_file(path, uint64_t{2} << 30);
   const auto shape = ReadShapeFile(path);
-  ExpectError(shape, path, "larger than");
+  ExpectError(shape, path, "at most");
 }
 
 TEST_F(ReadBytesTest, ShapesByPath) {

@@ -1,0 +1,128 @@
+// The module fjord_picture_files: the only file that names OpenImageIO.
+#include "engine/image/picture_files.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <memory>
+
+namespace fjord {
+namespace {
+
+// Every attribute of ours carries this, so that none is taken for something the file format knows.
+constexpr std::string_view kPrefix = "fjord:";
+
+OIIO::TypeDesc SampleType(PixelFormat format) {
+  switch (format) {
+    case PixelFormat::kPng8:
+      return OIIO::TypeDesc::UINT8;
+    case PixelFormat::kPng16:
+      return OIIO::TypeDesc::UINT16;
+    case PixelFormat::kExrHalf:
+      return OIIO::TypeDesc::HALF;
+    case PixelFormat::kExrFloat:
+      return OIIO::TypeDesc::FLOAT;
+  }
+  return OIIO::TypeDesc::UNKNOWN;
+}
+
+// One thread: the caller decides how many cores a frame may use.
+void SetUpOnce() {
+  static const bool kDone = [] {
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1);
+    return true;
+  }();
+  (void)kDone;
+}
+
+bool Encode(const Picture& picture, const std::string& ending, const PictureInfo& info,
+            std::string* bytes_or_why) {
+  SetUpOnce();
+  std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(ending);
+  if (!out) {
+    *bytes_or_why = "this OpenImageIO cannot write ." + ending + " (" + OIIO::geterror() + ")";
+    return false;
+  }
+  OIIO::ImageSpec spec(static_cast<int>(picture.width), static_cast<int>(picture.height), 3,
+                       SampleType(picture.format));
+  if (ending == "png") {
+    spec.attribute("png:compressionLevel", 1);
+    spec.attribute("compression", "zip:1");
+    spec.attribute("png:filter", 0x10);  // Sub: cheap, and it suits noisy terrain
+    spec.attribute("oiio:ColorSpace", "sRGB");
+  } else {
+    spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "");  // else the writer puts today's in
+    spec.attribute("oiio:ColorSpace", "linear");
+  }
+  for (const auto& [key, value] : info) spec.attribute(std::string(kPrefix) + key, value);
+  OIIO::Filesystem::IOVecOutput buffer;
+  OIIO::Filesystem::IOProxy* proxy = &buffer;
+  spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  const std::string name = "frame." + ending;
+  if (!out->open(name, spec) ||
+      !out->write_image(SampleType(picture.format), picture.bytes.data()) || !out->close()) {
+    *bytes_or_why = "the picture cannot be encoded: " + out->geterror();
+    return false;
+  }
+  const std::vector<unsigned char>& bytes = buffer.buffer();
+  bytes_or_why->assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return true;
+}
+
+PixelFormat FormatOf(const std::string& ending, const OIIO::ImageSpec& spec) {
+  if (ending == "png")
+    return spec.format == OIIO::TypeDesc::UINT16 ? PixelFormat::kPng16 : PixelFormat::kPng8;
+  return spec.format == OIIO::TypeDesc::HALF ? PixelFormat::kExrHalf : PixelFormat::kExrFloat;
+}
+
+bool Decode(std::string_view bytes, const std::string& ending, Picture* picture, PictureInfo* info,
+            std::string* why) {
+  SetUpOnce();
+  const auto fail = [&](const std::string& message) {
+    *why = message;
+    return false;
+  };
+  OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
+  std::unique_ptr<OIIO::ImageInput> in =
+      OIIO::ImageInput::create("frame." + ending, false, nullptr, &reader);
+  if (!in) return fail(OIIO::geterror());
+  OIIO::ImageSpec config;
+  OIIO::Filesystem::IOProxy* proxy = &reader;
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  OIIO::ImageSpec spec;
+  if (!in->open("frame." + ending, spec, config)) return fail(in->geterror());
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1) return fail("no flat picture");
+  if (spec.nchannels < 3) return fail("fewer than three channels");
+  picture->width = static_cast<uint32_t>(spec.width);
+  picture->height = static_cast<uint32_t>(spec.height);
+  picture->format = FormatOf(ending, spec);
+  // A header can claim any size; deflate packs at most about 1030 to 1.
+  const size_t claimed =
+      size_t{picture->width} * picture->height * 3 * SampleType(picture->format).size();
+  if (claimed / 1100 > bytes.size()) return fail("shorter than its header says");
+  picture->bytes.resize(claimed);
+  if (!in->read_image(0, 0, 0, 3, SampleType(picture->format), picture->bytes.data()))
+    return fail(in->geterror());
+  if (info != nullptr) {
+    info->clear();
+    for (const OIIO::ParamValue& value : spec.extra_attribs) {
+      const std::string key = value.name().string();
+      if (key.compare(0, kPrefix.size(), kPrefix) != 0) continue;
+      if (value.type() != OIIO::TypeDesc::STRING) continue;
+      info->emplace_back(key.substr(kPrefix.size()), value.get_string());
+    }
+  }
+  in->close();
+  return true;
+}
+
+}  // namespace
+
+extern "C" const PictureFiles* FjordPictureFiles1() {
+  static constexpr PictureFiles kFiles{Encode, Decode};
+  return &kFiles;
+}
+
+}  // namespace fjord
