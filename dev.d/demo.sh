@@ -23,6 +23,7 @@ trap 'exit 143' TERM HUP
 
 mkdir -p "$out" "$data"
 : >"$farm_log"
+: >"$data/address"  # here: the farm's own redirection comes after we have begun to look
 # In its own session, so that Ctrl-C reaches this script first, which then stops it in order.
 setsid "$FJORD" farm --workers 2 --data "$data" --listen 127.0.0.1:0 --with-parent >"$data/address" 2>>"$farm_log" </dev/null &
 farm=$!
