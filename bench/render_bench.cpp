@@ -92,7 +92,31 @@ void DemoFrames(benchmark::State& state) {
 }
 BENCHMARK(DemoFrames)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// One 64x64 tile alone against its share of the frame. Counters only.
+// Every 64x64 tile of the frame alone: together they make `times_whole` as many micro-triangles as
+// the frame at once, which is what a tile alone makes against its share.
+void TilesAlone(benchmark::State& state) {
+  const v1::FrameScene frame = DemoFrame(4);
+  const Result<RenderedFrame> whole = RenderFrame(frame, {.threads = 1});
+  FJORD_CHECK(whole.ok(), whole.error().message);
+  constexpr uint32_t kWidth = 1920, kHeight = 1080, kTile = 64;
+  uint64_t triangles = 0;
+  for (auto _ : state) {
+    triangles = 0;
+    for (uint32_t y = 0; y < kHeight; y += kTile) {
+      for (uint32_t x = 0; x < kWidth; x += kTile) {
+        const Result<RenderedFrame> tile = RenderTile(
+            frame, x, y, kTile, std::min(kTile, kHeight - y), {.threads = 1, .patch_size = 256});
+        FJORD_CHECK(tile.ok(), tile.error().message);
+        triangles += tile->stats.triangles;
+      }
+    }
+  }
+  state.counters["times_whole"] =
+      static_cast<double>(triangles) / static_cast<double>(whole->stats.triangles);
+}
+BENCHMARK(TilesAlone)->Unit(benchmark::kMillisecond)->Iterations(1);
+
+// The dense tile in the middle.
 void OneTileAlone(benchmark::State& state) {
   const v1::FrameScene frame = DemoFrame(4);
   const Result<RenderedFrame> whole = RenderFrame(frame, {.threads = 1});

@@ -73,7 +73,7 @@ def google_benchmark(name):
                 kept[unit] = row[counter] * 1e9
         if "triangles_per_s" in row:
             kept["ns_per_triangle"] = 1e9 / row["triangles_per_s"]
-        for counter in ("frames_per_s", "triangles", "whole_triangles", "leaves"):
+        for counter in ("frames_per_s", "triangles", "whole_triangles", "times_whole", "leaves"):
             if counter in row:
                 kept[counter] = row[counter]
         rows[row["run_name"]] = {key: round(value, 4) if isinstance(value, float) else value
