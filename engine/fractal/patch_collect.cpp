@@ -55,7 +55,6 @@ HWY_INLINE M32 LongLanes(const double* length2) {
 
 void CollectLongEdgesLanes(Patch& patch, bool keep_numbers) {
   const D32 d;
-  constexpr size_t kLanes32 = hn::MaxLanes(D32());
   const size_t begin = patch.run_begin, end = patch.edge_count;
   double* length2 = patch.edge_length2.data();
   const uint32_t* edge_a = patch.edge_a.data();
@@ -104,7 +103,6 @@ void CollectLongEdgesLanes(Patch& patch, bool keep_numbers) {
 
 void InterleaveLeavesLanes(Patch& patch) {
   const D32 d;
-  constexpr size_t kLanes32 = hn::MaxLanes(D32());
   for (size_t i = 0; i < patch.leaf_count; i += kLanes32) {
     hn::StoreInterleaved3(hn::LoadU(d, &patch.leaf[0][i]), hn::LoadU(d, &patch.leaf[1][i]),
                           hn::LoadU(d, &patch.leaf[2][i]), d, patch.leaf_triangles[i].data());

@@ -75,7 +75,6 @@ HWY_INLINE V32 Turned(V32 by0, V32 by1, V32 by2, M32 turn1, M32 turn2) {
 HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end,
                           CaseList* lists) {
   const D32 d;
-  constexpr size_t kLanes32 = hn::MaxLanes(D32());
   const V32 index_bits = hn::Set(d, ~Patch::kFlip), short_slot = hn::Set(d, Patch::kShort);
   for (int i = 0; i < 3; ++i) lists[i].count = 0;
   const PatchTriangles& from = patch.triangles;

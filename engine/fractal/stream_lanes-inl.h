@@ -36,6 +36,13 @@ using MF = hn::Mask<DF>;
 using D32 = hn::ScalableTag<uint32_t>;
 using V32 = hn::Vec<D32>;
 using M32 = hn::Mask<D32>;
+using I32 = hn::RebindToSigned<D32>;
+using VI = hn::Vec<I32>;
+using MI = hn::Mask<I32>;
+constexpr size_t kLanes32 = hn::MaxLanes(D32());
+
+HWY_INLINE VI Signed(V32 v) { return hn::BitCast(I32(), v); }
+HWY_INLINE V32 Unsigned(VI v) { return hn::BitCast(D32(), v); }
 
 // Brings the lanes of a mask to the front. Highway's own Compress copies its table at every call
 // under g++ 12, and works the order out again for every vector.
@@ -66,7 +73,6 @@ class Compactor {
   HWY_INLINE V32 Ranks() const { return hn::Load(D32(), Tables().rank[bits_]); }
 
  private:
-  static constexpr size_t kLanes32 = hn::MaxLanes(D32());
   struct Table {
     alignas(64) uint32_t lane[size_t{1} << kLanes32][kLanes32];
     alignas(64) uint32_t rank[size_t{1} << kLanes32][kLanes32];

@@ -18,38 +18,21 @@ namespace fjord {
 namespace HWY_NAMESPACE {
 namespace {
 
-using I32 = hn::RebindToSigned<D32>;
-using VI = hn::Vec<I32>;
-using MI = hn::Mask<I32>;
-constexpr size_t kLanes32 = hn::MaxLanes(D32());
-
 // Highway 1.0 compares integers by < and > only.
 HWY_INLINE MI AtLeast(VI a, VI b) { return hn::Not(hn::Lt(a, b)); }
-
-HWY_INLINE VI Signed(V32 v) { return hn::BitCast(I32(), v); }
-HWY_INLINE V32 Unsigned(VI v) { return hn::BitCast(D32(), v); }
 
 // The corners of up to kCoverageBlock triangles, x y pairs.
 struct CornerBlock {
   alignas(64) int64_t corner[3][kCoverageBlock + 16];
 
-  void Load(const Triangle* triangles, size_t count, const int32_t* xy) {
+  // triangle(i): the i-th of `count`.
+  template <typename TriangleOf>
+  void Load(size_t count, const int32_t* xy, const TriangleOf& triangle) {
     for (size_t i = 0; i < count; ++i) {
-      for (size_t k = 0; k < 3; ++k) {
-        std::memcpy(&corner[k][i], xy + 2 * size_t{triangles[i][k]}, 8);
-      }
+      const Triangle& t = triangle(i);
+      for (size_t k = 0; k < 3; ++k) std::memcpy(&corner[k][i], xy + 2 * size_t{t[k]}, 8);
     }
-    // Triangles without area.
-    for (size_t i = count; i < count + kLanes32; ++i) {
-      corner[0][i] = corner[1][i] = corner[2][i] = 0;
-    }
-  }
-  void Load(const Triangle* triangles, const uint32_t* numbers, size_t count, const int32_t* xy) {
-    for (size_t i = 0; i < count; ++i) {
-      for (size_t k = 0; k < 3; ++k) {
-        std::memcpy(&corner[k][i], xy + 2 * size_t{triangles[numbers[i]][k]}, 8);
-      }
-    }
+    // Whole vectors are read: triangles without area.
     for (size_t i = count; i < count + kLanes32; ++i) {
       corner[0][i] = corner[1][i] = corner[2][i] = 0;
     }
@@ -221,7 +204,7 @@ void Cover(const Triangle* triangles, size_t count, const int32_t* xy, const Til
   const VI one = hn::Set(d, kFixedOne), two = hn::Set(d, 2 * kFixedOne);
   const VI clip = hn::Set(d, kOutOfGuard);
   CornerBlock block;
-  block.Load(triangles, count, xy);
+  block.Load(count, xy, [&](size_t i) -> const Triangle& { return triangles[i]; });
   size_t wides = 0;
   out->hits = 0;
   out->larges = 0;
@@ -242,150 +225,11 @@ void Cover(const Triangle* triangles, size_t count, const int32_t* xy, const Til
     coverer.Cover(t, hn::And(touches, small), numbers, 1, 1);
   }
   if (wides == 0) return;
-  block.Load(triangles, out->wide.data(), wides, xy);
+  block.Load(wides, xy, [&](size_t i) -> const Triangle& { return triangles[out->wide[i]]; });
   for (size_t first = 0; first < wides; first += kLanes32) {
     const V32 numbers = hn::LoadU(du, out->wide.data() + first);
     const MI valid = hn::RebindMask(d, hn::FirstN(du, wides - first));
     coverer.Cover(Lanes(block, first), valid, numbers, 2, 2);
-  }
-}
-
-HWY_INLINE VI GatherSigned(const int32_t* from, V32 index) {
-  return Signed(Gather(reinterpret_cast<const uint32_t*>(from), index));
-}
-
-// Which corner leads is said by two masks; neither: the first.
-HWY_INLINE V32 Turned(const V32* by, M32 second, M32 third) {
-  return hn::IfThenElse(third, by[2], hn::IfThenElse(second, by[1], by[0]));
-}
-
-HWY_INLINE VF Promoted(const int32_t* from) {
-  return hn::PromoteTo(DF(), hn::Load(hn::RebindToSigned<DN>(), from));
-}
-
-// Corners of N triangles, turned so that the one with the smallest (x, y) leads, as differences.
-struct Led {
-  static constexpr size_t kSize = kLanes32;
-  HWY_ALIGN uint32_t vertex[3][kSize];
-  HWY_ALIGN int32_t bx[kSize], by[kSize], cx[kSize], cy[kSize], dx[kSize], dy[kSize];
-
-  // Hits at..; lanes from `count` on: those of triangle 0.
-  HWY_INLINE Led(const Triangle* triangles, const int32_t* xy, CoverageList& hits, size_t at,
-                 size_t count) {
-    const D32 du;
-    const I32 d;
-    const V32 number =
-        hn::IfThenElseZero(hn::FirstN(du, count), hn::LoadU(du, hits.triangle.data() + at));
-    const V32 place = number + number + number;
-    V32 v[3], x[3], y[3];
-    for (int k = 0; k < 3; ++k) {
-      v[k] = Gather(triangles->data() + k, place);
-      const V32 pair = v[k] + v[k];
-      x[k] = Unsigned(GatherSigned(xy, pair));
-      y[k] = Unsigned(GatherSigned(xy + 1, pair));
-    }
-    const auto before = [&](int i, int j) HWY_ATTR {
-      const VI xi = Signed(x[i]), xj = Signed(x[j]);
-      const MI less =
-          hn::Or(hn::Lt(xi, xj), hn::And(hn::Eq(xi, xj), hn::Lt(Signed(y[i]), Signed(y[j]))));
-      return hn::RebindMask(du, less);
-    };
-    const M32 ab = before(0, 1), ac = before(0, 2), bc = before(1, 2);
-    const M32 first = hn::And(ab, ac);
-    const M32 second = hn::AndNot(ab, bc);
-    const M32 third = hn::Not(hn::Or(first, second));
-    const V32 one = hn::Set(du, 1), two = hn::Set(du, 2);
-    hn::StoreU(hn::IfThenElseZero(hn::Not(first), hn::IfThenElse(third, two, one)), du,
-               hits.lead.data() + at);
-    VI cornerx[3], cornery[3];
-    for (int k = 0; k < 3; ++k) {
-      const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-      const V32 vs[3] = {v[k], v[k1], v[k2]}, xs[3] = {x[k], x[k1], x[k2]},
-                ys[3] = {y[k], y[k1], y[k2]};
-      hn::Store(Turned(vs, second, third), du, vertex[k]);
-      cornerx[k] = Signed(Turned(xs, second, third));
-      cornery[k] = Signed(Turned(ys, second, third));
-    }
-    hn::Store(cornerx[1] - cornerx[0], d, bx);
-    hn::Store(cornery[1] - cornery[0], d, by);
-    hn::Store(cornerx[2] - cornerx[0], d, cx);
-    hn::Store(cornery[2] - cornery[0], d, cy);
-    hn::Store(hn::LoadU(d, hits.x.data() + at) - cornerx[0], d, dx);
-    hn::Store(hn::LoadU(d, hits.y.data() + at) - cornery[0], d, dy);
-  }
-};
-
-void Depths(const Triangle* triangles, const int32_t* xy, const double* depths,
-            CoverageList* hits) {
-  const DF d;
-  const DN dn;
-  constexpr size_t kLanes = hn::MaxLanes(DF());
-  for (size_t at = 0; at < hits->hits; at += kLanes32) {
-    const Led led(triangles, xy, *hits, at, hits->hits - at);
-    for (size_t i = 0; i < kLanes32; i += kLanes) {
-      VF corner[3];
-      for (int k = 0; k < 3; ++k) corner[k] = Gather(depths, hn::Load(dn, led.vertex[k] + i));
-      const VF bx = Promoted(led.bx + i), by = Promoted(led.by + i);
-      const VF cx = Promoted(led.cx + i), cy = Promoted(led.cy + i);
-      const VF inverse = hn::Set(d, 1.0) / (bx * cy - cx * by);
-      const VF db = corner[1] - corner[0], dc = corner[2] - corner[0];
-      const VF along_x = (db * cy - dc * by) * inverse;
-      const VF along_y = (dc * bx - db * cx) * inverse;
-      VF depth = (corner[0] + along_x * Promoted(led.dx + i)) + along_y * Promoted(led.dy + i);
-      const auto smaller = [](VF a, VF b) HWY_ATTR { return hn::IfThenElse(hn::Lt(b, a), b, a); };
-      const auto larger = [](VF a, VF b) HWY_ATTR { return hn::IfThenElse(hn::Lt(a, b), b, a); };
-      depth = larger(depth, smaller(smaller(corner[0], corner[1]), corner[2]));
-      depth = smaller(depth, larger(larger(corner[0], corner[1]), corner[2]));
-      hn::StoreU(depth, d, hits->depth.data() + at + i);
-    }
-  }
-}
-
-void Project(const Projection& to, const StreamVertex* HWY_RESTRICT vertices, size_t count,
-             int32_t* HWY_RESTRICT xy, double* HWY_RESTRICT depth) {
-  const DF d;
-  const hn::Rebind<int32_t, DF> di;
-  constexpr size_t kLanes = hn::MaxLanes(DF());
-  const VF near = hn::Set(d, to.near), one = hn::Set(d, 1.0), zero = hn::Zero(d);
-  const VF guard = hn::Set(d, static_cast<double>(kFixedGuard));
-  HWY_ALIGN uint32_t numbers[kLanes];
-  const auto row = [&](const std::array<double, 4>& r, const Columns& c) HWY_ATTR {
-    const VF sum = hn::Set(d, r[0]) * c.v[0] + hn::Set(d, r[1]) * c.v[1];
-    return (sum + hn::Set(d, r[2]) * c.v[2]) + hn::Set(d, r[3]);
-  };
-  // view.cpp's ToFixed: floor(v + 1/2); inside the guard.
-  const auto fixed = [&](VF v) HWY_ATTR { return hn::DemoteTo(di, hn::Floor(v + hn::Set(d, .5))); };
-  for (size_t first = 0; first < count; first += kLanes) {
-    for (size_t i = 0; i < kLanes; ++i) {
-      numbers[i] = static_cast<uint32_t>(std::min(first + i, count - 1));
-    }
-    const Columns c = LoadVertices(vertices, numbers);
-    const VF cz = row(to.z, c);
-    VF x = row(to.x, c), y = row(to.y, c);
-    VF nearness = hn::Neg(cz);
-    if (!to.orthographic) {
-      nearness = one / cz;
-      x = x * nearness;
-      y = y * nearness;
-    }
-    const MF inside =
-        hn::And(hn::Ge(cz, near), hn::And(hn::Lt(hn::Abs(x), guard), hn::Lt(hn::Abs(y), guard)));
-    auto px = fixed(hn::IfThenElse(inside, x, zero));
-    const auto py = fixed(hn::IfThenElse(inside, y, zero));
-    hn::StoreU(nearness, d, depth + first);
-    HWY_ALIGN int32_t fx[kLanes], fy[kLanes];
-    hn::Store(px, di, fx);
-    hn::Store(py, di, fy);
-    for (size_t i = 0; i < kLanes; ++i) {
-      xy[2 * (first + i)] = fx[i];
-      xy[2 * (first + i) + 1] = fy[i];
-    }
-    if (hn::AllTrue(d, inside)) continue;
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, inside, bits);
-    for (size_t i = 0; i < kLanes; ++i) {
-      if ((bits[0] >> i & 1) == 0) xy[2 * (first + i)] = kOutOfGuard;
-    }
   }
 }
 
@@ -406,20 +250,9 @@ void Grow(std::vector<T>* v, size_t size) {
   if (v->size() < size) v->resize(size);
 }
 
-HWY_EXPORT(Project);
 HWY_EXPORT(Cover);
-HWY_EXPORT(Depths);
 
 }  // namespace
-
-void ProjectVertices(const Projection& to, std::span<const StreamVertex> vertices,
-                     ProjectedBatch* out) {
-  Grow(&out->xy, 2 * (vertices.size() + kPadding));
-  Grow(&out->depth, vertices.size() + kPadding);
-  if (vertices.empty()) return;
-  HWY_DYNAMIC_DISPATCH(Project)
-  (to, vertices.data(), vertices.size(), out->xy.data(), out->depth.data());
-}
 
 void FindCoverage(std::span<const Triangle> triangles, const ProjectedBatch& batch,
                   const TileRect& tile, std::span<const SamplePlace> places, CoverageList* out) {
@@ -436,11 +269,6 @@ void FindCoverage(std::span<const Triangle> triangles, const ProjectedBatch& bat
   Grow(&out->wide, kCoverageBlock + kPadding);
   HWY_DYNAMIC_DISPATCH(Cover)
   (triangles.data(), triangles.size(), batch.xy.data(), tile, places, out);
-}
-
-void FindDepths(std::span<const Triangle> triangles, const ProjectedBatch& batch,
-                CoverageList* hits) {
-  HWY_DYNAMIC_DISPATCH(Depths)(triangles.data(), batch.xy.data(), batch.depth.data(), hits);
 }
 
 }  // namespace fjord
