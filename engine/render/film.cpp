@@ -11,6 +11,13 @@ constexpr uint32_t kBackground = 0xffffffff;
 constexpr uint32_t kSea = 0xfffffffe;
 constexpr uint32_t kDone = 0xfffffffd;
 
+// Are these sixteen, which is a whole number of pixels, all without a hit? It has all bits set.
+bool NoneHit(const uint32_t* hit) {
+  uint32_t all = kNoHit;
+  for (int i = 0; i < 16; ++i) all &= hit[i];
+  return all == kNoHit;
+}
+
 }  // namespace
 
 Rgb Film::Background(int32_t y) const {
@@ -55,16 +62,10 @@ Film::Behind Film::BehindRow(int32_t y) const {
 Film::Span Film::DrawnPixels(const TileBuffer& drawn, int32_t y) const {
   const auto samples = static_cast<int32_t>(places_.size());
   const uint32_t* hit = drawn.hit() + drawn.Index(tile_.x, y, 0);
-  // A pixel at a time: no hit has all bits set.
-  const auto empty = [&](int32_t x) {
-    uint32_t all = kNoHit;
-    for (int32_t s = 0; s < samples; ++s) all &= hit[x * samples + s];
-    return all == kNoHit;
-  };
-  Span span = {0, tile_.width};
-  while (span.first < span.end && empty(span.first)) ++span.first;
-  while (span.end > span.first && empty(span.end - 1)) --span.end;
-  return span;
+  int32_t first = 0, end = tile_.width * samples;
+  while (end - first >= 16 && NoneHit(hit + first)) first += 16;
+  while (end - first >= 16 && NoneHit(hit + end - 16)) end -= 16;
+  return {first / samples, (end + samples - 1) / samples};
 }
 
 // Pixels whose samples all see the same.
@@ -90,9 +91,9 @@ void Film::FillPlain(int32_t y, Span pixels, Behind behind, float* out) {
   }
   ShadeSea();
   for (int k = 0; k < 3; ++k) {
-    for (size_t i = 0; i < sea_.size; ++i) {
-      out[3 * static_cast<size_t>(sea_.place[i]) + static_cast<size_t>(k)] =
-          average(sea_.color[k][i]);
+    const float* color = sea_.color[k].data();
+    for (int32_t x = pixels.first; x < pixels.end; ++x) {
+      out[3 * x + k] = average(color[x - pixels.first]);
     }
   }
 }
