@@ -6,6 +6,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <string>
 
 #include "proto/fjord/protocol.h"
 #include "server/server.h"
@@ -40,6 +41,13 @@ int main(int argc, char** argv) {
   app.add_option("--stall-ms", machine.stall_ms, "Progress that stands still this long ends a try")
       ->check(CLI::Range(100, 86'400'000))
       ->group("");
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "fjord-server: error: " + std::string(error.what()) + "; see fjord-server --help\n";
+  });
+  app.footer(
+      "Examples:\n"
+      "  fjord-server --listen 127.0.0.1:7433 --data /var/lib/fjord\n"
+      "  fjord-server --listen 127.0.0.1:0 --data farm      the port is printed");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
+#include <string>
 
 #include "proto/fjord/protocol.h"
 #include "worker/identity.h"
@@ -42,6 +43,13 @@ int main(int argc, char** argv) {
                  "SCENE FRAME KEY: the child's side of a unit that runs alone")
       ->expected(3)
       ->group("");
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "fjord-worker: error: " + std::string(error.what()) + "; see fjord-worker --help\n";
+  });
+  app.footer(
+      "Examples:\n"
+      "  fjord-worker --server 127.0.0.1:7433\n"
+      "  fjord-worker --server 127.0.0.1:7433 --threads 4 --tag fast");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
