@@ -210,7 +210,7 @@ def main():
     say("bench: memory at 1 and 1/8 pixel")
     report["memory_mb"] = {"pixels_1": peak_memory(1), "pixels_1_8": peak_memory(.125)}
     say("bench: farm overhead")
-    report["farm"] = farm_overhead(24, "1920x1080")
+    report["farm"] = farm_overhead(48, "1920x1080")
     if options.json:
         print(json.dumps(report, indent=1))
     else:
