@@ -1,6 +1,5 @@
 #include "engine/render/coverage.h"
 
-#include <algorithm>
 #include <cstring>
 
 #include "engine/base/check.h"

@@ -1,4 +1,6 @@
 // Micro-triangles: coverage and depths come from the SIMD kernels; here the nearest stay.
+#include <algorithm>
+
 #include "engine/render/raster.h"
 #include "engine/render/raster_source.h"
 

@@ -4,13 +4,11 @@
 // [y][x][sample], so that a micro-triangle touches few cache lines and four samples are one vector.
 //
 // Invariants
-// V1 What a sample keeps does not depend on the order of arrival: the larger depth wins, a tie goes
-// to
-//    the smaller (object, tie).
+// V1 What a sample keeps does not depend on the order of arrival: the larger depth wins, a tie
+//    goes to the smaller (object, tie).
 // V2 The sea is there from the start: what lies under it never gets a record.
-// V3 A record is made only for a triangle that won a sample when it came; records no sample refers
-// to
-//    any more are dropped when there are too many, so memory is bounded by the samples.
+// V3 A record is made only for a triangle that won a sample when it came; records that no sample
+//    refers to any more are dropped when there are too many, so memory is bounded by the samples.
 //
 // Not for sharing between threads.
 #pragma once
