@@ -38,7 +38,7 @@ check_format() {
 # The archives that a picture goes through; image_io only carries finished samples.
 check_symbols() {
   local archives=() name
-  for name in base geometry formats fractal texture scene animation image render; do
+  for name in base geometry knobs formats fractal texture scene animation image render; do
     archives+=("$build/engine/$name/libfjord_$name.a")
   done
   python3 "$here/check_symbols.py" "${archives[@]}"
