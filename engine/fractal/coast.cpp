@@ -180,6 +180,11 @@ class PreparedCoast : public PreparedFractal {
     return shape;
   }
 
+  size_t Bytes() const override {
+    return sizeof(*this) + VectorBytes(mesh_.vertices) + VectorBytes(mesh_.triangles) +
+           VectorBytes(mesh_.border_rest2);
+  }
+
  private:
   double Reach(const CoastPiece& piece) const {
     return piece.coast ? rules_.Reach({piece.s.line, piece.e.line, piece.rest2, 0}) : 0;

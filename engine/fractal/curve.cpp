@@ -123,6 +123,11 @@ class PreparedCurve : public PreparedFractal {
     return shape;
   }
 
+  size_t Bytes() const override {
+    return sizeof(*this) + VectorBytes(chain_.vertices) + VectorBytes(chain_.frames) +
+           VectorBytes(chain_.rest2);
+  }
+
  private:
   // What lies below a segment of the edge. Additions move a segment's ends as far as its inside, so
   // a point may be anywhere within the edge's reach of the edge: twice that of the segment.

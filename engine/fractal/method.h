@@ -32,6 +32,11 @@
 
 namespace fjord {
 
+template <typename T>
+size_t VectorBytes(const std::vector<T>& list) {
+  return list.capacity() * sizeof(T);
+}
+
 // The coarse shape of one object in one frame. Triangles or a curve, never both.
 struct CoarseShape {
   std::vector<Vec3> now;            // object space
@@ -40,6 +45,10 @@ struct CoarseShape {
   bool curve = false;               // now, in order, is a polyline
   bool closed = false;
   std::vector<Rgb> colors;  // none, or one a vertex
+
+  size_t Bytes() const {
+    return VectorBytes(now) + VectorBytes(rest) + VectorBytes(triangles) + VectorBytes(colors);
+  }
 };
 
 struct Ball {
@@ -138,6 +147,8 @@ class PreparedFractal {
   // patch_hint: about how many leaves to make at a time (256..4096); never changes a bit.
   virtual StreamStats Stream(size_t root, StreamSink& sink, size_t patch_hint) const = 0;
   virtual Result<WeldedShape> Weld(const WeldLimits& limits) const = 0;
+  // About what it holds in memory, so that a cache can keep its bound.
+  virtual size_t Bytes() const = 0;
 };
 
 enum class Takes : uint8_t { kTriangles = 1, kCurve = 2 };
@@ -147,8 +158,7 @@ struct MethodInfo {
   uint32_t version;  // in the frame key of every frame that uses it (D5)
   std::string_view summary;
   Takes takes;
-  bool streams_exactly;      // states its reach; false: made whole, in bounded pieces
-  FractalSettings defaults;  // Law, Direction, Variant never kDefault here
+  FractalSettings defaults;                 // Law, Direction, Variant never kDefault here
   std::span<const std::string_view> knobs;  // names from AllKnobs()
   std::span<const Law> laws;
   std::span<const Direction> directions;

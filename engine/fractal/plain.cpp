@@ -90,6 +90,8 @@ class PreparedPlain final : public PreparedFractal {
     return welded;
   }
 
+  size_t Bytes() const override { return sizeof(*this) + shape_.Bytes() + VectorBytes(vertices_); }
+
  private:
   size_t ElementCount() const {
     if (!shape_.curve) return shape_.triangles.size();

@@ -119,6 +119,8 @@ class PreparedSurface final : public PreparedFractal {
 
   Result<WeldedShape> Weld(const WeldLimits& limits) const override;
 
+  size_t Bytes() const override { return sizeof(*this) + coarse_.Bytes(); }
+
  private:
   EdgeSite SiteOf(size_t triangle, int k) const { return coarse_.SiteOf(rules_, triangle, k); }
 

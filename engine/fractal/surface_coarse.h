@@ -31,6 +31,11 @@ struct CoarseSurface {
   std::vector<CoarseEdge> edges;
   double largest = 0;  // largest absolute coordinate
 
+  size_t Bytes() const {
+    return VectorBytes(vertices) + VectorBytes(colors) + VectorBytes(triangles) +
+           VectorBytes(triangle_edges) + VectorBytes(face_normals) + VectorBytes(edges);
+  }
+
   // Site of side k of a triangle, k = 3: of its inside.
   EdgeSite SiteOf(const SurfaceRules& rules, size_t triangle, int k) const;
 };

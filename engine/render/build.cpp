@@ -1,9 +1,11 @@
 #include "engine/render/build.h"
 
+#include <bit>
 #include <string>
 #include <utility>
 
 #include "engine/animation/coarse.h"
+#include "engine/animation/walk.h"
 #include "engine/fractal/plain.h"
 #include "engine/fractal/registry.h"
 #include "engine/render/view.h"
@@ -92,6 +94,21 @@ Material MaterialOf(const v1::FrameMaterial& from, Reader* read) {
   return material;
 }
 
+// What decides how an object is prepared: all of it but where it stands and what it looks like, and
+// the view where that is read.
+Result<Digest> PreparedKey(const v1::FrameObject& object, const AdaptiveView& view) {
+  v1::FrameObject part = object;
+  part.clear_transform();
+  part.clear_material();
+  std::string bytes;
+  if (Result<> walked = AppendWalk(part, bytes); !walked) return walked.error();
+  if (part.fractal().split() == static_cast<uint32_t>(Split::kAdaptive)) {
+    for (const double row : view.rows) AppendBigEndian(std::bit_cast<uint64_t>(row), bytes);
+    AppendBigEndian(std::bit_cast<uint64_t>(view.near), bytes);
+  }
+  return Sha256Of(bytes);
+}
+
 Result<std::shared_ptr<const PreparedFractal>> Prepare(const CoarseShape& shape,
                                                        const FractalSettings& settings,
                                                        const AdaptiveView& view) {
@@ -115,7 +132,20 @@ Result<std::shared_ptr<const PreparedFractal>> Prepare(const CoarseShape& shape,
   return std::shared_ptr<const PreparedFractal>(std::move(*prepared));
 }
 
-Result<BuiltObject> BuildObject(const v1::FrameObject& from, const View& view, Reader* read) {
+Result<PreparedObject> MakePrepared(const v1::FrameObject& from, const AdaptiveView& view) {
+  PreparedObject object;
+  Result<CoarseShape> shape = CoarseShapeOf(from);
+  if (!shape) return shape.error();
+  object.shape = std::make_shared<const CoarseShape>(std::move(*shape));
+  if (from.has_fractal()) object.settings = FractalSettingsOf(from.fractal());
+  auto prepared = Prepare(*object.shape, object.settings, view);
+  if (!prepared) return prepared.error();
+  object.prepared = std::move(*prepared);
+  return object;
+}
+
+Result<BuiltObject> BuildObject(const v1::FrameObject& from, const View& view, PreparedCache& cache,
+                                Reader* read) {
   BuiltObject object;
   object.material = MaterialOf(from.material(), read);
   if (from.transform_size() == 12 && Finite(from.transform())) {
@@ -127,19 +157,20 @@ Result<BuiltObject> BuildObject(const v1::FrameObject& from, const View& view, R
     read->Fail(Inconsistent("an object's points and colours must be finite and below 1e15"));
   }
   if (!read->ok()) return read->error();
-  Result<CoarseShape> shape = CoarseShapeOf(from);
-  if (!shape) return shape.error();
-  object.shape = std::make_shared<const CoarseShape>(std::move(*shape));
-  if (from.has_fractal()) object.settings = FractalSettingsOf(from.fractal());
-  auto prepared = Prepare(*object.shape, object.settings, MakeAdaptiveView(view, object.transform));
+  const AdaptiveView adaptive = MakeAdaptiveView(view, object.transform);
+  const Result<Digest> key = PreparedKey(from, adaptive);
+  if (!key) return key.error();
+  auto prepared = cache.Get(*key, [&] { return MakePrepared(from, adaptive); });
   if (!prepared) return prepared.error();
-  object.prepared = std::move(*prepared);
+  object.prepared = (*prepared)->prepared;
+  object.shape = (*prepared)->shape;
+  object.settings = (*prepared)->settings;
   return object;
 }
 
 }  // namespace
 
-Result<BuiltFrame> BuildFrame(const v1::FrameScene& from) {
+Result<BuiltFrame> BuildFrame(const v1::FrameScene& from, PreparedCache& cache) {
   BuiltFrame frame;
   Reader read;
   frame.width = from.output().width();
@@ -192,7 +223,7 @@ Result<BuiltFrame> BuildFrame(const v1::FrameScene& from) {
   if (!read.ok()) return read.error();
   const View view = MakeView(frame.camera, frame.width, frame.height);
   for (const v1::FrameObject& object : from.object()) {
-    Result<BuiltObject> built = BuildObject(object, view, &read);
+    Result<BuiltObject> built = BuildObject(object, view, cache, &read);
     if (!built) return built.error();
     frame.objects.push_back(std::move(*built));
   }

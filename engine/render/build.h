@@ -4,12 +4,15 @@
 
 #include "engine/base/result.h"
 #include "engine/render/built_frame.h"
+#include "engine/render/prepared_cache.h"
 #include "fjord/v1/frame.pb.h"
 
 namespace fjord {
 
-// Checks what the renderer relies on (sizes, counts, finite numbers) and prepares every object.
-Result<BuiltFrame> BuildFrame(const v1::FrameScene& frame);
+// Checks what the renderer relies on (sizes, counts, finite numbers) and prepares every object that
+// the cache does not hold.
+Result<BuiltFrame> BuildFrame(const v1::FrameScene& frame,
+                              PreparedCache& cache = PreparedCache::Shared());
 
 // The object's shape made ready again with its fineness `coarser` times as coarse, for quick looks.
 Result<std::shared_ptr<const PreparedFractal>> PrepareObject(const BuiltFrame& frame,

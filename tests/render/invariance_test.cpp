@@ -127,6 +127,7 @@ class Unculled final : public PreparedFractal {
     return inner_->Stream(root, all, patch);
   }
   Result<WeldedShape> Weld(const WeldLimits& limits) const override { return inner_->Weld(limits); }
+  size_t Bytes() const override { return inner_->Bytes(); }
 
  private:
   std::shared_ptr<const PreparedFractal> inner_;
