@@ -1,5 +1,6 @@
-// The only places where a floating value becomes an integer (D1). Out of range saturates, NaN gives
-// 0: a plain cast would be undefined there, and differ between processors.
+// The only places where a floating value becomes an integer (D1), or a large one a float. Out of
+// range saturates, NaN gives 0: a plain cast would be undefined there, and differ between
+// processors.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +19,14 @@ constexpr int32_t ClampToInt32(double x) {
   if (x >= 2147483647.0) return std::numeric_limits<int32_t>::max();
   if (x <= -2147483648.0) return std::numeric_limits<int32_t>::min();
   return x == x ? static_cast<int32_t>(x) : 0;
+}
+
+// To the nearest float.
+constexpr float ClampToFloat(double x) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  if (x >= kLargest) return std::numeric_limits<float>::max();
+  if (x <= -kLargest) return -std::numeric_limits<float>::max();
+  return x == x ? static_cast<float>(x) : 0;
 }
 
 // Towards minus infinity.

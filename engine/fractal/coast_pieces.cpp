@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/base/clamp.h"
 #include "engine/geometry/edges.h"
 #include "engine/geometry/normals.h"
 
@@ -146,7 +147,7 @@ Result<CoastMesh> MakeCoastMesh(const CoarseShape& shape, const FractalSettings&
     v.line.direction = Softened(outward[i] * .5);
     v.line.stretch = StretchOf(stretch[i], stretched[i]);
     const Vec3 eye = shape.rest[i] - settings.fineness.eye;
-    v.line.eye_distance2 = static_cast<float>(glm::dot(eye, eye));
+    v.line.eye_distance2 = ClampToFloat(glm::dot(eye, eye));
     if (!shape.colors.empty()) {
       v.line.color = shape.colors[i];
     }

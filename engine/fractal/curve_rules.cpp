@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/base/clamp.h"
 #include "engine/base/exact_math.h"
 #include "engine/fractal/amount.h"
 
@@ -146,7 +147,7 @@ LineHalf LineRules::Halve(const LineSegment& s, const LineFrame& frame, const Si
   const double distance2 =
       (static_cast<double>(s.a.eye_distance2) + static_cast<double>(s.b.eye_distance2)) * .5 -
       s.rest2 * .25;
-  v.eye_distance2 = static_cast<float>(Larger(distance2, 0));
+  v.eye_distance2 = ClampToFloat(Larger(distance2, 0));
   v.direction = Direction(s, frame, v.id);
   half.middle = (s.a.position + s.b.position) * .5;
   half.draw = Gaussian(v.id.lo, static_cast<int>(settings_.uniforms));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/base/clamp.h"
 #include "engine/base/random.h"
 #include "engine/geometry/edges.h"
 #include "engine/geometry/normals.h"
@@ -114,7 +115,7 @@ Result<CoarseSurface> MakeCoarseSurface(const CoarseShape& shape, const SurfaceR
     const double eye2 = Length2((rules.current() ? now[v] : shape.rest[v]) - rules.eye);
     coarse.vertices.push_back(
         {now[v], rules.direction == Direction::kUp ? Vec3(0, 0, 1) : normals[v],
-         CoarseIdentity(seed, v).lo, stretches[v], static_cast<float>(eye2 < 3e38 ? eye2 : 3e38)});
+         CoarseIdentity(seed, v).lo, stretches[v], ClampToFloat(eye2)});
     for (int i = 0; i < 3; ++i) {
       const double size = now[v][i] < 0 ? -now[v][i] : now[v][i];
       if (size > coarse.largest) coarse.largest = size;

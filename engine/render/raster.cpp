@@ -203,6 +203,13 @@ void Raster::Fill(const Corner& a, const Corner& b, const Corner& c, const HitRe
   const int64_t area =
       (int64_t{q.x} - p.x) * (int64_t{r.y} - p.y) - (int64_t{r.x} - p.x) * (int64_t{q.y} - p.y);
   if (area == 0) return;
+  const auto [left, right] = std::minmax({p.x, q.x, r.x});
+  const auto [top, bottom] = std::minmax({p.y, q.y, r.y});
+  const TileRect& rect = tile_->rect();
+  const PixelRange columns = {std::max(left >> 8, rect.x), std::min(right >> 8, rect.right() - 1)};
+  const PixelRange rows = {std::max(top >> 8, rect.y), std::min(bottom >> 8, rect.bottom() - 1)};
+  // Also: FillMedium's numbers are small only for triangles that touch the tile.
+  if (columns.first > columns.last || rows.first > rows.last) return;
   const DepthPlane plane(p, q, r);
   HitSource source{record};
   if (attributes_.any()) {
@@ -210,17 +217,13 @@ void Raster::Fill(const Corner& a, const Corner& b, const Corner& c, const HitRe
     source.corners = MakeCornerValues(to_, a, b, c);
   }
   const ScreenPoint &second = area < 0 ? r : q, &third = area < 0 ? q : r;
-  const auto [left, right] = std::minmax({p.x, q.x, r.x});
-  const auto [top, bottom] = std::minmax({p.y, q.y, r.y});
   constexpr int32_t kMedium = kMediumPixels * kFixedOne;
   if (right - left < kMedium && bottom - top < kMedium && tile_->places().size() >= 4) {
     FillMedium(p, second, third, plane, &source, tile_);
     return;
   }
-  const TileRect& rect = tile_->rect();
-  FillSpans({Edge(p, second), Edge(second, third), Edge(third, p)}, plane,
-            {std::max(left >> 8, rect.x), std::min(right >> 8, rect.right() - 1)},
-            {std::max(top >> 8, rect.y), std::min(bottom >> 8, rect.bottom() - 1)}, &source, tile_);
+  FillSpans({Edge(p, second), Edge(second, third), Edge(third, p)}, plane, columns, rows, &source,
+            tile_);
 }
 
 }  // namespace fjord

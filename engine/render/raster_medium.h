@@ -14,8 +14,8 @@ namespace fjord {
 // Corners of triangles up to so many pixels across fit FillMedium.
 inline constexpr int32_t kMediumPixels = 32;
 
-// One triangle, p, q, r turned so that its area is positive; 4 or 16 samples a pixel. Its record is
-// added when a sample is won.
+// One triangle whose box touches the tile, p, q, r turned so that its area is positive; 4 or 16
+// samples a pixel. Its record is added when a sample is won.
 void FillMedium(const ScreenPoint& p, const ScreenPoint& q, const ScreenPoint& r,
                 const DepthPlane& plane, HitSource* source, TileBuffer* tile);
 

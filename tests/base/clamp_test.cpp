@@ -26,6 +26,16 @@ TEST(ClampTest, SaturatesAndGivesZeroForNan) {
   EXPECT_EQ(RoundToInt64(-kInfinity), std::numeric_limits<int64_t>::min());
 }
 
+TEST(ClampTest, FloatsStayFinite) {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  EXPECT_EQ(ClampToFloat(1e300), kLargest);
+  EXPECT_EQ(ClampToFloat(-kInfinity), -kLargest);
+  EXPECT_EQ(ClampToFloat(kNan), 0);
+  EXPECT_EQ(ClampToFloat(double{kLargest}), kLargest);
+  EXPECT_EQ(ClampToFloat(.1), .1f);
+  EXPECT_EQ(ClampToFloat(-1e-50), 0);
+}
+
 TEST(ClampTest, RoundsAsItsNameSays) {
   EXPECT_EQ(ClampToInt32(-2.9), -2);
   EXPECT_EQ(FloorToInt32(-2.1), -3);
