@@ -14,7 +14,7 @@ namespace fjord {
 
 // Raised with any change that alters the picture of an unchanged frame scene outside the
 // registries.
-inline constexpr uint32_t kCoreShapeVersion = 1;
+inline constexpr uint32_t kCoreShapeVersion = 2;
 
 // The bytes that are digested: a header with the core shape version and the version of each
 // registry entry used, then the walk. NaN anywhere, or an unknown registry entry: kInvalid.

@@ -113,9 +113,9 @@ Result<CoarseSurface> MakeCoarseSurface(const CoarseShape& shape, const SurfaceR
       stretch ? Stretches(coarse, now.size()) : std::vector<float>(now.size(), 1);
   for (size_t v = 0; v < now.size(); ++v) {
     const double eye2 = Length2((rules.current() ? now[v] : shape.rest[v]) - rules.eye);
-    coarse.vertices.push_back(
-        {now[v], rules.direction == Direction::kUp ? Vec3(0, 0, 1) : normals[v],
-         CoarseIdentity(seed, v).lo, stretches[v], ClampToFloat(eye2)});
+    coarse.vertices.push_back({now[v],
+                               rules.direction == Direction::kUp ? Vec3(0, 0, 1) : normals[v],
+                               CoarseIdentity(seed, v).lo, stretches[v], ClampToFloat(eye2)});
     for (int i = 0; i < 3; ++i) {
       const double size = now[v][i] < 0 ? -now[v][i] : now[v][i];
       if (size > coarse.largest) coarse.largest = size;

@@ -9,6 +9,10 @@
 namespace fjord {
 namespace {
 
+// Pixels round a tile that still count as touching it: sample places and rounding to the fixed
+// grid. Strokes' spread comes on top.
+constexpr double kMargin = 1;
+
 // Pixel range low..high along one axis that a ball may touch; everything where it comes near the
 // eye.
 struct Range {
@@ -75,10 +79,11 @@ std::vector<int32_t> Edges(int32_t from, int32_t to, int32_t step) {
 
 }  // namespace
 
-double TileMargin(double line_width) { return 1 + .75 * line_width; }
+double StrokeSpread(double line_width) { return .75 * line_width; }
 
-TileFrustum::TileFrustum(const Projection& to, const TileRect& rect, double margin,
-                         bool open_left) {
+TileFrustum::TileFrustum(const CullObject& object, const TileRect& rect) {
+  const Projection& to = object.to;
+  const double margin = kMargin + object.spread;
   const std::array<double, 4> one = {0, 0, 0, 1};
   const std::array<double, 4>& w = to.orthographic ? one : to.z;
   const auto side = [&](const std::array<double, 4>& row, double at, double sign) {
@@ -86,10 +91,11 @@ TileFrustum::TileFrustum(const Projection& to, const TileRect& rect, double marg
     for (int i = 0; i < 4; ++i) plane[i] = sign * (row[i] - at * kFixedOne * w[i]);
     Add(plane);
   };
-  if (!open_left) side(to.x, rect.x - margin, 1);
-  side(to.x, rect.right() + margin, -1);
+  if (object.open != OpenSide::kLeft) side(to.x, rect.x - margin, 1);
+  if (object.open != OpenSide::kRight) side(to.x, rect.right() + margin, -1);
   side(to.y, rect.y - margin, 1);
   side(to.y, rect.bottom() + margin, -1);
+  if (object.before_near) return;
   std::array<double, 4> near = to.z;
   near[3] -= to.near;
   Add(near);
@@ -139,10 +145,14 @@ TileLists BinRoots(const TileRect& region, int32_t tile_width, int32_t tile_heig
     for (size_t root = 0; root < object.prepared->RootCount(); ++root) {
       const Ball ball = object.prepared->Bound(root);
       const double distance = Row(object.to.z, ball.center);
-      if (distance + near_length * ball.radius < object.to.near) continue;
-      Range range = BallRange(object.to, object.to.x, ball, object.margin);
-      if (object.open_left) range.high = std::numeric_limits<double>::infinity();
-      const Range down_range = BallRange(object.to, object.to.y, ball, object.margin);
+      const bool before = distance + near_length * ball.radius < object.to.near;
+      if (before && !object.before_near) continue;
+      const double margin = kMargin + object.spread;
+      Range range = BallRange(object.to, object.to.x, ball, margin);
+      // What lies left of a tile lies in one further left.
+      if (object.open == OpenSide::kLeft) range.high = std::numeric_limits<double>::infinity();
+      if (object.open == OpenSide::kRight) range.low = -std::numeric_limits<double>::infinity();
+      const Range down_range = BallRange(object.to, object.to.y, ball, margin);
       const Span across = TilesOf(range, columns);
       const Span down = TilesOf(down_range, rows);
       if (across.first > across.last || down.first > down.last) continue;

@@ -13,13 +13,25 @@
 
 namespace fjord {
 
-// Pixels round a tile that still count as touching it: sample places, rounding to the fixed grid,
-// and half the width of strokes with their square ends.
-double TileMargin(double line_width);
+// Pixels that a stroke reaches beyond its line: half its width, to the corners of its square ends.
+double StrokeSpread(double line_width);
+
+// Filled curves are counted from one side of the rows: what lies on that side of a tile is wanted
+// too (outline_fill.h).
+enum class OpenSide : uint8_t { kNone, kLeft, kRight };
+
+// One object, as culling sees it.
+struct CullObject {
+  const PreparedFractal* prepared = nullptr;
+  Projection to;
+  double spread = 0;  // StrokeSpread; 0 for triangles
+  OpenSide open = OpenSide::kNone;
+  bool before_near = false;  // what lies before the near plane is wanted too
+};
 
 class TileFrustum {
  public:
-  TileFrustum(const Projection& to, const TileRect& rect, double margin, bool open_left);
+  TileFrustum(const CullObject& object, const TileRect& rect);
 
   // May anything within `reach` of the triangle be seen in the tile?
   bool MayTouch(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) const;
@@ -49,14 +61,6 @@ struct TileLists {
   std::vector<TileRect> busy;  // the rows of a tile that anything may touch; height 0: none
   std::vector<uint32_t> start;
   std::vector<RootRef> refs;
-};
-
-struct CullObject {
-  const PreparedFractal* prepared = nullptr;
-  Projection to;
-  double margin = 1;  // TileMargin
-  // What lies left of a tile is wanted too (winding numbers are counted from the left).
-  bool open_left = false;
 };
 
 // Tiles lie on the grid of the whole picture, cut to `region`.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/render/outline_fill.h"
+
 namespace fjord {
 namespace {
 
@@ -27,19 +29,11 @@ std::array<float, 9> NormalMatrix(const std::array<double, 9>& cofactors) {
 }
 
 // The plane of a closed coarse curve: its mean place and its area vector (Newell). None for curves
-// that are not filled, have no area, or reach behind the eye, where inside and outside are not what
-// they seem.
-std::optional<ViewPlane> FillPlane(const View& view, const BuiltObject& object,
-                                   const Projection& to) {
+// that are not filled or have no area.
+std::optional<ViewPlane> FillPlane(const View& view, const BuiltObject& object) {
   const CoarseShape& shape = *object.shape;
   if (!object.material.fill || !shape.curve || !shape.closed || shape.now.size() < 3) {
     return std::nullopt;
-  }
-  const Vec3 length(to.z[0], to.z[1], to.z[2]);
-  // Orthographic views have no eye to be behind.
-  for (size_t root = 0; !to.orthographic && root < object.prepared->RootCount(); ++root) {
-    const Ball ball = object.prepared->Bound(root);
-    if (!(Row(to.z, ball.center) - Length(length) * ball.radius > view.near)) return std::nullopt;
   }
   Vec3 mean(0), area(0);
   for (const Vec3& p : shape.now) mean += p;
@@ -101,11 +95,15 @@ FrameSetup::FrameSetup(const BuiltFrame& built)
       setup.geometry.height_offset = -glm::dot(row, moved);
     }
     if (!material.ramp.empty()) setup.geometry.height_offset -= material.ramp.front().height;
-    setup.fill = FillPlane(view, object, setup.to);
+    setup.fill = FillPlane(view, object);
     objects.push_back(setup);
-    cull.push_back({object.prepared.get(), setup.to,
-                    TileMargin(object.shape->curve ? material.line_width : 0),
-                    setup.fill.has_value()});
+    CullObject culled{object.prepared.get(), setup.to};
+    if (object.shape->curve) culled.spread = StrokeSpread(material.line_width);
+    if (setup.fill) {
+      culled.open = OutlineFill::CountsFrom(*setup.fill);
+      culled.before_near = view.orthographic;
+    }
+    cull.push_back(culled);
   }
   if (built.sea) {
     sea = MakeViewPlane(view, Vec3(0, 0, built.sea->level), Vec3(0, 0, 1));

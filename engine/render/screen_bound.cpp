@@ -28,18 +28,19 @@ Range RangeOf(const std::array<double, 4>& row, const std::array<Vec3, 3>& corne
 }  // namespace
 
 std::optional<ScreenBound> BoundOnScreen(const Projection& to, const Vec3& a, const Vec3& b,
-                                         const Vec3& c, const StreamReach& reach) {
-  constexpr double kRounding = 2;  // vertices are rounded to the grid, and so is this
+                                         const Vec3& c, const StreamReach& reach, double spread) {
+  // Vertices are rounded to the grid, and so is this.
+  const double round = 2 + spread * kFixedOne;
   const std::array<Vec3, 3> corner = {a, b, c};
   const Range z = RangeOf(to.z, corner, reach);
   if (!(z.least > to.near)) return std::nullopt;
   ScreenBound bound;
   if (to.orthographic) {
     const Range x = RangeOf(to.x, corner, reach), y = RangeOf(to.y, corner, reach);
-    bound.left = x.least - kRounding;
-    bound.right = x.most + kRounding;
-    bound.top = y.least - kRounding;
-    bound.bottom = y.most + kRounding;
+    bound.left = x.least - round;
+    bound.right = x.most + round;
+    bound.top = y.least - round;
+    bound.bottom = y.most + round;
     bound.depth = -z.least;
     return bound;
   }
@@ -50,8 +51,8 @@ std::optional<ScreenBound> BoundOnScreen(const Projection& to, const Vec3& a, co
     std::array<double, 4> off;
     for (size_t i = 0; i < 4; ++i) off[i] = row[i] - middle * to.z[i];
     const Range range = RangeOf(off, corner, reach);
-    *least = middle + range.least / (range.least < 0 ? z.least : z.most) - kRounding;
-    *most = middle + range.most / (range.most > 0 ? z.least : z.most) + kRounding;
+    *least = middle + range.least / (range.least < 0 ? z.least : z.most) - round;
+    *most = middle + range.most / (range.most > 0 ? z.least : z.most) + round;
   };
   side(to.x, &bound.left, &bound.right);
   side(to.y, &bound.top, &bound.bottom);

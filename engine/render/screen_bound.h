@@ -13,8 +13,9 @@ struct ScreenBound {
   double depth = 0;                                 // no sample can be nearer
 };
 
-// Of what lies within `reach` of the triangle. None where that may come before the near plane.
+// Of what lies within `reach` of the triangle and of what is drawn `spread` pixels round it. None
+// where it may come before the near plane.
 std::optional<ScreenBound> BoundOnScreen(const Projection& to, const Vec3& a, const Vec3& b,
-                                         const Vec3& c, const StreamReach& reach);
+                                         const Vec3& c, const StreamReach& reach, double spread);
 
 }  // namespace fjord

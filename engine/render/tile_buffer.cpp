@@ -41,7 +41,7 @@ bool TileBuffer::Hides(int32_t left, int32_t top, int32_t right, int32_t bottom,
   right = std::min(right, rect_.right() - 1);
   top = std::max(top, rect_.y);
   bottom = std::min(bottom, rect_.bottom() - 1);
-  if (left > right) return true;
+  if (left > right || top > bottom) return false;
   for (int32_t y = top; y <= bottom; ++y) {
     const double* there = depth_.data() + Index(left, y, 0);
     const double* end = there + static_cast<size_t>(right - left + 1) * places_.size();

@@ -92,8 +92,8 @@ class TileBuffer {
     return object != record.object ? object < record.object : tie < record.tie;
   }
 
-  // Does every sample of pixels left..right, top..bottom (cut to the tile) have something nearer
-  // than `depth`?
+  // Does every sample of pixels left..right, top..bottom that lies in the tile have something
+  // nearer than `depth`? Of what lies outside it nothing is known: false where none does.
   bool Hides(int32_t left, int32_t top, int32_t right, int32_t bottom, double depth) const;
 
   // Call between batches: no record index may be held across it.

@@ -37,9 +37,13 @@ bool IsSet(const std::atomic<bool>* cancel) {
 class TileSink final : public StreamSink {
  public:
   // fill: null, or where outlines go too.
-  TileSink(const TileFrustum& frustum, const std::atomic<bool>* cancel, Raster* raster,
-           OutlineFill* fill)
-      : frustum_(frustum), cancel_(cancel), raster_(raster), fill_(fill) {}
+  TileSink(const CullObject& object, const TileRect& rect, const std::atomic<bool>* cancel,
+           Raster* raster, OutlineFill* fill)
+      : frustum_(object, rect),
+        spread_(object.spread),
+        cancel_(cancel),
+        raster_(raster),
+        fill_(fill) {}
 
   bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) override {
     return !IsSet(cancel_) && frustum_.MayTouch(a, b, c, reach) &&
@@ -55,7 +59,8 @@ class TileSink final : public StreamSink {
   // seldom hidden, and cut anyway.
   bool IsHidden(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) const {
     constexpr double kLargest = 64 * kFixedOne;
-    const std::optional<ScreenBound> bound = BoundOnScreen(raster_->projection(), a, b, c, reach);
+    const std::optional<ScreenBound> bound =
+        BoundOnScreen(raster_->projection(), a, b, c, reach, spread_);
     if (!bound || !(bound->right - bound->left < kLargest) ||
         !(bound->bottom - bound->top < kLargest)) {
       return false;
@@ -65,7 +70,8 @@ class TileSink final : public StreamSink {
                                  bound->depth);
   }
 
-  const TileFrustum& frustum_;
+  const TileFrustum frustum_;
+  const double spread_;
   const std::atomic<bool>* cancel_;
   Raster* raster_;
   OutlineFill* fill_;
@@ -162,11 +168,9 @@ class RegionRenderer {
     while (i < end) {
       const uint32_t object = lists_.refs[i].object;
       const ObjectSetup& setup = setup_.objects[object];
-      const TileFrustum frustum(setup.to, rect, setup_.cull[object].margin,
-                                setup_.cull[object].open_left);
       worker->raster.StartObject(object, setup.to, setup.attributes, setup.line_width);
-      if (setup.fill) worker->fill.Start(worker->buffer);
-      TileSink sink(frustum, options_.cancel, &worker->raster,
+      if (setup.fill) worker->fill.Start(worker->buffer, setup_.cull[object].open);
+      TileSink sink(setup_.cull[object], rect, options_.cancel, &worker->raster,
                     setup.fill ? &worker->fill : nullptr);
       for (; i < end && lists_.refs[i].object == object; ++i) {
         if (IsSet(options_.cancel)) return made;

@@ -30,7 +30,7 @@ std::string Bytes(const std::string& hex) {
   return bytes;
 }
 
-const std::string kHead = "fjord-frame 1\ncore 1\n";
+const std::string kHead = "fjord-frame 1\ncore 2\n";
 
 std::string KeyBytes(const v1::FrameScene& frame) {
   Result<std::string> bytes = FrameKeyBytes(frame);
@@ -101,7 +101,7 @@ TEST(FrameKeyTest, UsedMethodsAreInTheHeadOnceSorted) {
 TEST(FrameKeyTest, KnownAnswer) {
   // sha256sum of the bytes of docs/frame_key.md, worked out with another program
   EXPECT_EQ(FrameKey(SmallFrame())->Hex(),
-            "dc15a31a98ff97e37ae3903f801e50331d260aec28e9b9cc1a01067c9798aa88");
+            "f56b351a2cc3e70cbc85ecffa1f03c4548e84d6733529460fb38a57905986a47");
 }
 
 TEST(FrameKeyTest, ZerosOfBothSignsAndEmptyMessagesAreDefaults) {

@@ -50,6 +50,53 @@ TEST(HidingTest, S7_WhatLiesUnderTheSeaIsNotMade) {
   EXPECT_LT(wet->stats.triangles, dry->stats.triangles / 100);
 }
 
+// An upright stroke of 41 points, `x` pixels right of the middle.
+v1::FrameObject* AddStroke(v1::FrameScene* scene, double x, double top, double width) {
+  std::vector<Vec3> points;
+  for (int i = 0; i <= 40; ++i) points.emplace_back(x, top - i * top / 20, 0);
+  v1::FrameObject* line = AddObject(scene, points, {}, Rgb(1, 0, 0));
+  line->set_curve(true);
+  line->mutable_material()->set_line_width(width);
+  return line;
+}
+
+// A stroke reaches beyond the tile in which its line lies: there it is not hidden, whoever asks.
+TEST(HidingTest, D4_StrokesReachIntoTheNextTile) {
+  v1::FrameScene scene = FlatScene(1920, 48);
+  AddStroke(&scene, -710, 20, 40);
+  for (const int threads : {1, 2, 3, 8}) {
+    const Picture picture = Draw(scene, {.threads = threads});
+    for (uint32_t x = 220; x < 280; ++x) {
+      const float wanted = x >= 230 && x < 270 ? 1 : 0;
+      ASSERT_EQ(At(picture, x, 24).r, wanted) << "pixel " << x << ", threads " << threads;
+    }
+  }
+}
+
+// A line behind a narrow plate: its stroke shows on both sides.
+TEST(HidingTest, S7_WideStrokesShowBesideWhatHidesTheirLine) {
+  v1::FrameScene scene = FlatScene(256, 64);
+  AddObject(&scene, {{-30, -50, 10}, {30, -50, 10}, {30, 50, 10}, {-30, 50, 10}}, {{0, 1, 2, 3}},
+            Rgb(0, 1, 0));
+  AddStroke(&scene, 25, 25, 80);
+  const Picture picture = Draw(scene, {.threads = 1});
+  for (uint32_t x = 0; x < 256; ++x) {
+    const bool plate = x >= 98 && x < 158, stroke = x >= 113 && x < 193;
+    const Rgb wanted = plate ? Rgb(0, 1, 0) : stroke ? Rgb(1, 0, 0) : Rgb(0);
+    ASSERT_EQ(At(picture, x, 32), wanted) << "pixel " << x;
+  }
+}
+
+// Tiles far from a short stroke work with its corners too.
+TEST(HidingTest, D3_StrokesFarFromATileAreHarmless) {
+  v1::FrameScene scene = FlatScene(8192, 16);
+  scene.mutable_output()->set_samples(4);
+  AddObject(&scene, {{-4090, 0, 0}, {-4080, 3, 0}, {4080, 0, 0}, {4090, 3, 0}}, {}, Rgb(1))
+      ->set_curve(true);
+  const std::string wanted = DigestOf(scene, {.threads = 1, .tile_size = 4096});
+  EXPECT_EQ(DigestOf(scene, {.threads = 1, .tile_size = 16}), wanted);
+}
+
 // Whatever a displaced point does, it stays within its bound.
 TEST(HidingTest, S7_PointsStayWithinTheirScreenBound) {
   std::mt19937_64 draw(3);
@@ -74,8 +121,9 @@ TEST(HidingTest, S7_PointsStayWithinTheirScreenBound) {
     StreamReach reach(number(0, .1));
     reach.along = number(0, .2);
     for (Vec3& way : reach.way) way = Unit(Vec3(0, 0, 1) + point(.2));
+    const double spread = round % 2 == 0 ? 0 : 7;
     const std::optional<ScreenBound> bound =
-        BoundOnScreen(to, corner[0], corner[1], corner[2], reach);
+        BoundOnScreen(to, corner[0], corner[1], corner[2], reach, spread);
     if (!bound) continue;
     ++bounded;
     for (int i = 0; i < 20; ++i) {
@@ -84,10 +132,10 @@ TEST(HidingTest, S7_PointsStayWithinTheirScreenBound) {
                      reach.way[draw() % 3] * (draw() % 2 == 0 ? reach.along : -reach.along) +
                      Unit(point(1)) * reach.around;
       const ScreenPoint seen = ToScreen(to, ToClip(to, p));
-      ASSERT_LE(bound->left, seen.x);
-      ASSERT_GE(bound->right, seen.x);
-      ASSERT_LE(bound->top, seen.y);
-      ASSERT_GE(bound->bottom, seen.y);
+      ASSERT_LE(bound->left, seen.x - spread * kFixedOne);
+      ASSERT_GE(bound->right, seen.x + spread * kFixedOne);
+      ASSERT_LE(bound->top, seen.y - spread * kFixedOne);
+      ASSERT_GE(bound->bottom, seen.y + spread * kFixedOne);
       ASSERT_GE(bound->depth, seen.depth);
       tightest = std::min(tightest, (bound->right - seen.x) / (bound->right - bound->left));
     }
