@@ -6,9 +6,11 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "engine/base/simd.h"
+#include "engine/formats/shape_file.h"
 #include "engine/fractal/registry.h"
 #include "engine/fractal/surface.h"
 #include "engine/geometry/triangulate.h"
@@ -115,14 +117,19 @@ void Stream(benchmark::State& state, const Case& one, const std::string& level, 
   FJORD_CHECK(SetSimdLevel("best"));
 }
 
-void Weld(benchmark::State& state, const Case& one) {
+// The welded shape, and as a binary PLY file in memory.
+void Weld(benchmark::State& state, const Case& one, bool write) {
   const auto prepared = PrepareCase(one);
   size_t points = 0, leaves = 0;
   for (auto _ : state) {
-    const auto welded = prepared->Weld({});
+    auto welded = prepared->Weld({.details = !write});
     FJORD_CHECK(welded.ok());
     points = welded->mesh.points.size();
     leaves = welded->mesh.FaceCount();
+    if (!write) continue;
+    ShapeFile shape;
+    shape.mesh = std::move(welded->mesh);
+    benchmark::DoNotOptimize(WriteShape(shape, ShapeFormat::kPly, {}));
   }
   Report(state, static_cast<double>(points), static_cast<double>(leaves));
 }
@@ -142,9 +149,12 @@ void Register() {
     };
     for (const std::string& level : SimdLevels()) add(level, 2048);
     for (const size_t patch : {256, 512, 1024, 4096}) add(SimdLevels().back(), patch);
-    benchmark::RegisterBenchmark(("weld/" + one.name).c_str(), [&one](benchmark::State& state) {
-      Weld(state, one);
-    })->Unit(benchmark::kMillisecond);
+    for (const bool write : {false, true}) {
+      benchmark::RegisterBenchmark(
+          ((write ? "weld_ply/" : "weld/") + one.name).c_str(),
+          [&one, write](benchmark::State& state) { Weld(state, one, write); })
+          ->Unit(benchmark::kMillisecond);
+    }
   }
 }
 

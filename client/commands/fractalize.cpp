@@ -1,5 +1,6 @@
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/commands/commands.h"
@@ -24,13 +25,20 @@ struct Options {
   uint64_t max_points = WeldLimits().max_points;
 };
 
-void AppendMesh(const Mesh& part, const Transform& transform, bool keep_colors, Mesh* whole) {
+void AppendMesh(Mesh part, const Transform& transform, bool keep_colors, Mesh* whole) {
+  if (!keep_colors) part.colors = {};
+  if (whole->points.empty()) {
+    *whole = std::move(part);
+    for (Vec3& point : whole->points) point = Apply(transform, point);
+    return;
+  }
   const auto offset = static_cast<uint32_t>(whole->points.size());
+  whole->points.reserve(offset + part.points.size());
   for (const Vec3& point : part.points) whole->points.push_back(Apply(transform, point));
   whole->face_size.insert(whole->face_size.end(), part.face_size.begin(), part.face_size.end());
+  whole->face_vertex.reserve(whole->face_vertex.size() + part.face_vertex.size());
   for (const uint32_t vertex : part.face_vertex) whole->face_vertex.push_back(vertex + offset);
-  if (keep_colors)
-    whole->colors.insert(whole->colors.end(), part.colors.begin(), part.colors.end());
+  whole->colors.insert(whole->colors.end(), part.colors.begin(), part.colors.end());
 }
 
 // All chosen objects of the frame, fractalized, in the scene's space.
@@ -43,7 +51,8 @@ Result<ShapeFile> Weld(const BuiltFrame& frame, const v1::Scene& scene, const Op
     const std::string& name = scene.objects(static_cast<int>(i)).name();
     if (!options.object.empty() && name != options.object) continue;
     const BuiltObject& object = frame.objects[i];
-    const Result<WeldedShape> welded = object.prepared->Weld({options.max_points});
+    Result<WeldedShape> welded =
+        object.prepared->Weld({.max_points = options.max_points, .threads = 0, .details = false});
     if (!welded.ok()) {
       return MakeError(welded.error().code, "object " + name + ": " + welded.error().message,
                        {options.scene, 0, 0});
@@ -54,7 +63,7 @@ Result<ShapeFile> Weld(const BuiltFrame& frame, const v1::Scene& scene, const Op
         curve.points.push_back(Apply(object.transform, point));
       shape.curves.push_back(std::move(curve));
     } else {
-      AppendMesh(welded->mesh, object.transform, all_colored, &shape.mesh);
+      AppendMesh(std::move(welded->mesh), object.transform, all_colored, &shape.mesh);
     }
   }
   return shape;

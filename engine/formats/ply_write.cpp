@@ -12,13 +12,35 @@
 namespace fjord::formats {
 namespace {
 
-template <typename T>
-void AppendLittle(T value, std::string* out) {
-  std::array<char, sizeof(T)> bytes{};
-  std::memcpy(bytes.data(), &value, sizeof(T));
-  if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
-  out->append(bytes.data(), bytes.size());
-}
+// Little-endian values on their way to a file, gathered in a block first: appending every one of
+// them to a string costs several times as much.
+class LittleEndian {
+ public:
+  explicit LittleEndian(std::string* out) : out_(out) {}
+  ~LittleEndian() { Flush(); }
+  LittleEndian(const LittleEndian&) = delete;
+  LittleEndian& operator=(const LittleEndian&) = delete;
+
+  template <typename T>
+  void Put(T value) {
+    if (block_.size() - used_ < sizeof(T)) Flush();
+    std::memcpy(&block_[used_], &value, sizeof(T));
+    if constexpr (std::endian::native == std::endian::big) {
+      std::reverse(&block_[used_], &block_[used_] + sizeof(T));
+    }
+    used_ += sizeof(T);
+  }
+
+ private:
+  void Flush() {
+    out_->append(block_.data(), used_);
+    used_ = 0;
+  }
+
+  std::string* out_;
+  std::array<char, 1 << 14> block_;
+  size_t used_ = 0;
+};
 
 // The byte that reads back as exactly this colour, if there is one.
 std::optional<uint8_t> AsByte(float channel) {
@@ -26,6 +48,53 @@ std::optional<uint8_t> AsByte(float channel) {
   const auto byte = static_cast<uint8_t>(RoundToUint32(channel * 255., 255));
   if (static_cast<float>(byte) / 255.f != channel) return std::nullopt;
   return byte;
+}
+
+// What the header announces.
+struct Layout {
+  bool colored = false;
+  bool bytes = false;  // colours
+  bool big = false;    // counts of face corners
+  size_t mesh_points = 0;
+};
+
+void AppendBody(const ShapeFile& shape, const Layout& layout, std::string* out) {
+  const Mesh& mesh = shape.mesh;
+  LittleEndian to(out);
+  const auto add_point = [&](const Vec3& p, const Rgb& color) {
+    for (int k = 0; k < 3; ++k) to.Put(p[k]);
+    for (int k = 0; layout.colored && k < 3; ++k) {
+      if (layout.bytes) {
+        to.Put(*AsByte(color[k]));
+      } else {
+        to.Put(color[k]);
+      }
+    }
+  };
+  for (size_t v = 0; v < layout.mesh_points; ++v) {
+    add_point(mesh.points[v], layout.colored ? mesh.colors[v] : Rgb(1));
+  }
+  for (const Polyline& curve : shape.curves) {
+    for (const Vec3& p : curve.points) add_point(p, Rgb(1));
+  }
+  const uint32_t* corner = mesh.face_vertex.data();
+  for (const uint32_t size : mesh.face_size) {
+    if (layout.big) {
+      to.Put(size);
+    } else {
+      to.Put(static_cast<uint8_t>(size));
+    }
+    for (size_t k = 0; k < size; ++k) to.Put(*corner++);
+  }
+  auto first = static_cast<uint32_t>(layout.mesh_points);
+  for (const Polyline& curve : shape.curves) {
+    const auto n = static_cast<uint32_t>(curve.points.size());
+    for (uint32_t k = 0; k + (curve.closed ? 0 : 1) < n; ++k) {
+      to.Put(first + k);
+      to.Put(first + (k + 1) % n);
+    }
+    first += n;
+  }
 }
 
 }  // namespace
@@ -48,8 +117,9 @@ std::string WritePly(const ShapeFile& shape, const Comment& comment) {
                    *std::max_element(mesh.face_size.begin(), mesh.face_size.end()) > 255;
 
   std::string out = "ply\nformat binary_little_endian 1.0\n";
-  for (const std::string& line : comment) out += "comment " + text::OneLine(line) + '\n';
-  out += "element vertex " + std::to_string(points) + '\n';
+  for (const std::string& line : comment)
+    out.append("comment ").append(text::OneLine(line)).append("\n");
+  out.append("element vertex ").append(std::to_string(points)).append("\n");
   for (const char* axis : {"x", "y", "z"}) out += std::string("property double ") + axis + '\n';
   for (const char* channel : {"red", "green", "blue"}) {
     if (colored) out += std::string("property ") + (bytes ? "uchar " : "float ") + channel + '\n';
@@ -64,40 +134,11 @@ std::string WritePly(const ShapeFile& shape, const Comment& comment) {
   }
   out += "end_header\n";
 
-  const auto add_point = [&](const Vec3& p, const Rgb& color) {
-    for (int k = 0; k < 3; ++k) AppendLittle(p[k], &out);
-    for (int k = 0; colored && k < 3; ++k) {
-      if (bytes) {
-        AppendLittle(*AsByte(color[k]), &out);
-      } else {
-        AppendLittle(color[k], &out);
-      }
-    }
-  };
-  for (size_t v = 0; v < mesh_points; ++v) {
-    add_point(mesh.points[v], colored ? mesh.colors[v] : Rgb(1));
-  }
-  for (const Polyline& curve : shape.curves) {
-    for (const Vec3& p : curve.points) add_point(p, Rgb(1));
-  }
-  size_t corner = 0;
-  for (const uint32_t size : mesh.face_size) {
-    if (big) {
-      AppendLittle(size, &out);
-    } else {
-      AppendLittle(static_cast<uint8_t>(size), &out);
-    }
-    for (size_t k = 0; k < size; ++k) AppendLittle(mesh.face_vertex[corner++], &out);
-  }
-  auto first = static_cast<uint32_t>(mesh_points);
-  for (const Polyline& curve : shape.curves) {
-    const auto n = static_cast<uint32_t>(curve.points.size());
-    for (uint32_t k = 0; k + (curve.closed ? 0 : 1) < n; ++k) {
-      AppendLittle(first + k, &out);
-      AppendLittle(first + (k + 1) % n, &out);
-    }
-    first += n;
-  }
+  const size_t color_bytes = colored ? 3 * (bytes ? sizeof(uint8_t) : sizeof(float)) : 0;
+  out.reserve(out.size() + points * (3 * sizeof(double) + color_bytes) +
+              mesh.FaceCount() * (big ? sizeof(uint32_t) : sizeof(uint8_t)) +
+              (mesh.face_vertex.size() + 2 * edges) * sizeof(uint32_t));
+  AppendBody(shape, {colored, bytes, big, mesh_points}, &out);
   return out;
 }
 

@@ -122,8 +122,8 @@ struct StreamStats {
   uint32_t depth = 0;
 };
 
-// Welded vertices, sorted by no more than the order in which they were made: coarse ones first.
-// Those of a curve: in the order of the chain.
+// Welded vertices: coarse ones first, the others in an order that depends on shape and settings
+// alone. Those of a curve: in the order of the chain.
 struct WeldedShape {
   Mesh mesh;  // triangles; empty faces for a curve
   bool curve = false;
@@ -136,6 +136,8 @@ struct WeldedShape {
 
 struct WeldLimits {
   uint64_t max_points = 50'000'000;
+  int threads = 1;      // at most; 0: one a core
+  bool details = true;  // false: the mesh is enough, the rest may be left empty
 };
 
 class PreparedFractal {

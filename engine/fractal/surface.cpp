@@ -11,21 +11,12 @@
 #include "engine/fractal/patch.h"
 #include "engine/fractal/surface_coarse.h"
 #include "engine/fractal/surface_rules.h"
+#include "engine/fractal/surface_weld.h"
 
 namespace fjord {
 namespace {
 
 constexpr size_t kMostPoints = size_t{1} << 27;  // 32-bit offsets into 64-byte vertices
-
-// A triangle that waits to be expanded: a coarse one, or a child of one that was too large.
-struct PatchRoot {
-  StreamVertex vertex[3];
-  Rgb color[3];
-  double length2[3];  // as in Patch
-  double current2[3];
-  uint32_t site[3];  // 1..3: the side of the coarse triangle that it lies on; 0: inside
-  uint32_t level;
-};
 
 struct Workspace {
   Patch patch;
@@ -59,7 +50,7 @@ class WorkspaceLease {
   std::unique_ptr<Workspace> space_;
 };
 
-class PreparedSurface final : public PreparedFractal {
+class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
  public:
   PreparedSurface(CoarseSurface coarse, const SurfaceRules& rules, uint64_t seed)
       : coarse_(std::move(coarse)), rules_(rules), inland_(rules), reach_(rules_), seed_(seed) {
@@ -82,14 +73,14 @@ class PreparedSurface final : public PreparedFractal {
 
   Ball Bound(size_t root) const override {
     const PatchRoot r = CoarseRoot(root);
-    const EdgeSite sites[4] = {SiteOf(root, 3), SiteOf(root, 0), SiteOf(root, 1), SiteOf(root, 2)};
+    const std::array<EdgeSite, 4> sites = SitesOf(root);
     Ball ball;
     ball.center = (r.vertex[0].position + r.vertex[1].position + r.vertex[2].position) * (1. / 3);
     double farthest = 0;
     for (const StreamVertex& v : r.vertex) {
       farthest = std::max(farthest, Length(v.position - ball.center));
     }
-    ball.radius = (farthest + ReachOf(r, sites).Any()) * (1 + 1e-9);
+    ball.radius = (farthest + ReachOf(r, sites.data()).Any()) * (1 + 1e-9);
     return ball;
   }
 
@@ -97,34 +88,39 @@ class PreparedSurface final : public PreparedFractal {
     const WorkspaceLease lease;
     Workspace& space = *lease;
     const size_t hint = std::clamp<size_t>(patch_hint, 16, 1 << 16);
-    const EdgeSite sites[4] = {SiteOf(root, 3), SiteOf(root, 0), SiteOf(root, 1), SiteOf(root, 2)};
+    const std::array<EdgeSite, 4> sites = SitesOf(root);
     StreamStats stats;
     space.stack.push_back(CoarseRoot(root));
     while (!space.stack.empty()) {
       const PatchRoot next = space.stack.back();
       space.stack.pop_back();
       if (!sink.Wants(next.vertex[0].position, next.vertex[1].position, next.vertex[2].position,
-                      ReachOf(next, sites))) {
+                      ReachOf(next, sites.data()))) {
         ++stats.culled;
         continue;
       }
-      const bool small =
-          next.level >= rules_.max_level || ExpectedLeaves(next) <= static_cast<double>(hint);
-      if (!small || !Expand(next, sites, hint, space.patch, sink, stats)) {
-        Cut(next, sites, space, stats);
+      const bool small = ExpectedLeaves(next) <= static_cast<double>(hint);
+      if (!small || !Expand(next, sites.data(), hint, space.patch, sink, stats)) {
+        Cut(next, sites.data(), space, stats);
       }
     }
     return stats;
   }
 
-  Result<WeldedShape> Weld(const WeldLimits& limits) const override;
+  Result<WeldedShape> Weld(const WeldLimits& limits) const override {
+    return WeldSurface(*this, coarse_, rules_, seed_, limits);
+  }
 
   size_t Bytes() const override { return sizeof(*this) + coarse_.Bytes(); }
 
  private:
   EdgeSite SiteOf(size_t triangle, int k) const { return coarse_.SiteOf(rules_, triangle, k); }
 
-  PatchRoot CoarseRoot(size_t root) const {
+  std::array<EdgeSite, 4> SitesOf(size_t t) const override {
+    return {SiteOf(t, 3), SiteOf(t, 0), SiteOf(t, 1), SiteOf(t, 2)};
+  }
+
+  PatchRoot CoarseRoot(size_t root) const override {
     PatchRoot r{};
     for (size_t k = 0; k < 3; ++k) {
       const uint32_t v = coarse_.triangles[root][k];
@@ -139,7 +135,7 @@ class PreparedSurface final : public PreparedFractal {
   }
 
   // What its edges are split by: those of an inland triangle stay inland.
-  const SurfaceRules& RulesOf(const PatchRoot& root, const EdgeSite* sites) const {
+  const SurfaceRules& RulesOf(const PatchRoot& root, const EdgeSite* sites) const override {
     bool coast = sites[0].coast > 0;
     for (const uint32_t site : root.site) coast |= sites[site].coast > 0;
     return coast ? rules_ : inland_;
@@ -183,7 +179,8 @@ class PreparedSurface final : public PreparedFractal {
 
   // About how many leaves a triangle becomes: a leaf has edges of half to once the longest short
   // length, so the square of the longest edge over that length, times 2 to 4.
-  double ExpectedLeaves(const PatchRoot& root) const {
+  double ExpectedLeaves(const PatchRoot& root) const override {
+    if (root.level >= rules_.max_level) return 1;
     double most = 0;
     for (int k = 0; k < 3; ++k) {
       if (PatchIsShort(root.length2[k])) continue;
@@ -202,21 +199,23 @@ class PreparedSurface final : public PreparedFractal {
     return most * 1.25;
   }
 
-  void Load(const PatchRoot& root, const EdgeSite* sites, bool sites_kept, size_t limit,
-            Patch& patch) const {
-    patch.Clear(sites, !coarse_.colors.empty(), limit);
-    for (uint32_t k = 0; k < 3; ++k) patch.AddVertex(root.vertex[k], root.color[k]);
-    for (uint32_t k = 0; k < 3; ++k) {
-      patch.AddEdge(k, (k + 1) % 3, root.length2[k], root.current2[k], root.site[k]);
+  void Load(const PatchRoot& root, uint32_t first_site, bool sites_kept,
+            Patch& patch) const override {
+    Triangle corners, edges;
+    for (size_t k = 0; k < 3; ++k) corners[k] = patch.AddVertex(root.vertex[k], root.color[k]);
+    for (size_t k = 0; k < 3; ++k) {
+      edges[k] = patch.AddEdge(corners[k], corners[(k + 1) % 3], root.length2[k], root.current2[k],
+                               first_site + root.site[k]);
     }
-    patch.AddTriangle({0, 1, 2}, {0, 1, 2}, 0, sites_kept);
+    patch.AddTriangle(corners, edges, first_site, sites_kept);
   }
 
   // False where the tables would grow far beyond what was expected; nothing was emitted.
   bool Expand(const PatchRoot& root, const EdgeSite* sites, size_t hint, Patch& patch,
               StreamSink& sink, StreamStats& stats) const {
     const SurfaceRules& rules = RulesOf(root, sites);
-    Load(root, sites, rules.sites, 3 * hint + 64, patch);
+    patch.Clear(sites, !coarse_.colors.empty(), 3 * hint + 64);
+    Load(root, 0, rules.sites, patch);
     uint32_t level = root.level;
     PatchStep step;
     while ((step = patch.Step(rules, level)) == PatchStep::kSplit) ++level;
@@ -237,25 +236,31 @@ class PreparedSurface final : public PreparedFractal {
            StreamStats& stats) const {
     Patch& patch = space.patch;
     const SurfaceRules& rules = RulesOf(root, sites);
-    Load(root, sites, rules.sites, kMostPoints, patch);
+    patch.Clear(sites, !coarse_.colors.empty(), kMostPoints);
+    Load(root, 0, rules.sites, patch);
     const PatchStep step = patch.Step(rules, root.level);
     FJORD_CHECK(step == PatchStep::kSplit, root.level);
     stats.midpoints += patch.vertex_count - 3;
     stats.depth = std::max(stats.depth, root.level + 1);
     for (size_t t = patch.triangles.count; t-- > 0;) {
-      PatchRoot child{};
-      child.level = root.level + 1;
-      for (int k = 0; k < 3; ++k) {
-        const uint32_t v = patch.triangles.corner[k][t];
-        const uint32_t e = patch.triangles.edge[k][t] & ~Patch::kFlip;
-        child.vertex[k] = patch.vertex[v];
-        if (patch.colors) child.color[k] = patch.color[v];
-        child.length2[k] = patch.edge_length2[e];
-        child.current2[k] = patch.edge_current2[e];
-        child.site[k] = rules.sites ? patch.edge_site[e] : 0;
-      }
-      space.stack.push_back(child);
+      space.stack.push_back(ChildOf(root, patch, t, rules.sites));
     }
+  }
+
+  PatchRoot ChildOf(const PatchRoot& parent, const Patch& patch, size_t t,
+                    bool sites_kept) const override {
+    PatchRoot child{};
+    child.level = parent.level + 1;
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t v = patch.triangles.corner[k][t];
+      const uint32_t e = patch.triangles.edge[k][t] & ~Patch::kFlip;
+      child.vertex[k] = patch.vertex[v];
+      if (patch.colors) child.color[k] = patch.color[v];
+      child.length2[k] = patch.edge_length2[e];
+      child.current2[k] = patch.edge_current2[e];
+      child.site[k] = sites_kept ? patch.edge_site[e] : 0;
+    }
+    return child;
   }
 
   CoarseSurface coarse_;
@@ -265,78 +270,6 @@ class PreparedSurface final : public PreparedFractal {
   uint64_t seed_;
   double position_slack_ = 0;
 };
-
-Result<WeldedShape> PreparedSurface::Weld(const WeldLimits& limits) const {
-  const size_t limit = std::min<uint64_t>(limits.max_points, kMostPoints);
-  const size_t coarse_count = coarse_.vertices.size();
-  const Error too_many =
-      MakeError(ErrorCode::kLimit, "the shape has more than " + std::to_string(limit) +
-                                       " points at this fineness; take a larger epsilon or a "
-                                       "smaller max_level");
-  if (coarse_count > limit) return too_many;
-  const bool apart = rules_.direction == Direction::kFace;
-
-  // Sites: faces first, then edges.
-  std::vector<EdgeSite> sites;
-  Patch patch;
-  for (size_t t = 0; rules_.sites && t < coarse_.triangles.size(); ++t)
-    sites.push_back(SiteOf(t, 3));
-  const auto add_edge = [&](const CoarseEdge& e, const EdgeSite& site) {
-    sites.push_back(site);
-    return patch.AddEdge(e.a, e.b, e.length2, e.current2, static_cast<uint32_t>(sites.size() - 1));
-  };
-  patch.Clear(nullptr, !coarse_.colors.empty(), limit);
-  for (size_t v = 0; v < coarse_count; ++v) {
-    patch.AddVertex(coarse_.vertices[v], patch.colors ? coarse_.colors[v] : Rgb(0));
-  }
-  if (!apart) {
-    for (const CoarseEdge& e : coarse_.edges) add_edge(e, e.site);
-  }
-  for (size_t t = 0; t < coarse_.triangles.size(); ++t) {
-    const Triangle& corners = coarse_.triangles[t];
-    Triangle edges = coarse_.triangle_edges[t];
-    for (size_t k = 0; k < 3; ++k) {
-      const CoarseEdge& edge = coarse_.edges[edges[k]];
-      if (apart) edges[k] = add_edge(edge, SiteOf(t, static_cast<int>(k)));
-      if (edge.a != corners[k]) edges[k] |= Patch::kFlip;
-    }
-    patch.AddTriangle(corners, edges, static_cast<uint32_t>(t), rules_.sites);
-  }
-  patch.sites = sites.data();
-
-  WeldedShape welded;
-  for (size_t v = 0; v < coarse_count; ++v) welded.identity.push_back(CoarseIdentity(seed_, v));
-  welded.level.assign(coarse_count, 0);
-  welded.coast.assign(coarse_count, 0);
-  for (const CoarseEdge& e : coarse_.edges) {
-    if (e.site.coast > 0) welded.coast[e.a] = welded.coast[e.b] = 1;
-  }
-  PatchStep step;
-  for (uint32_t level = 0; (step = patch.Step(rules_, level)) == PatchStep::kSplit; ++level) {
-    for (size_t k = 0; k < patch.long_count; ++k) {
-      welded.identity.push_back(
-          MidpointIdentity(welded.identity[patch.long_a[k]], welded.identity[patch.long_b[k]]));
-      welded.level.push_back(static_cast<uint8_t>(level + 1));
-      welded.coast.push_back(rules_.coast && sites[patch.edge_site[patch.long_edge[k]]].coast > 0);
-    }
-  }
-  if (step == PatchStep::kFull) return too_many;
-
-  welded.mesh.points.reserve(patch.vertex_count);
-  welded.direction.reserve(patch.vertex_count);
-  for (size_t v = 0; v < patch.vertex_count; ++v) {
-    welded.mesh.points.push_back(patch.vertex[v].position);
-    welded.direction.push_back(patch.vertex[v].direction);
-  }
-  if (patch.colors)
-    welded.mesh.colors.assign(patch.color.data(), patch.color.data() + patch.vertex_count);
-  welded.mesh.face_size.assign(patch.leaf_count, 3);
-  welded.mesh.face_vertex.reserve(3 * patch.leaf_count);
-  for (size_t t = 0; t < patch.leaf_count; ++t) {
-    for (int k = 0; k < 3; ++k) welded.mesh.face_vertex.push_back(patch.leaf[k][t]);
-  }
-  return welded;
-}
 
 }  // namespace
 

@@ -14,7 +14,8 @@
 // nearer than that to its border can still be crossed.
 //
 // Welded: with FACE every input triangle has borders of its own, so that the gaps are in the mesh.
-// Peak memory of Weld is about 320 bytes a point while it is made, 130 in the result.
+// Memory of Weld is what it returns, about 100 bytes a point with its faces, 44 where the mesh is
+// enough.
 //
 // A root is an input triangle (those that name a vertex twice are left out). Prepared objects are
 // immutable and shared freely by threads; each thread keeps its tables, under 4 MB at a patch_hint

@@ -1,0 +1,79 @@
+#include "engine/fractal/surface_group.h"
+
+namespace fjord {
+
+void SurfaceGroup::Clear(bool colored, size_t most_vertices) {
+  patch_.Clear(nullptr, colored, most_vertices);
+  sites_.clear();
+}
+
+void SurfaceGroup::AddSites(const std::array<EdgeSite, 4>& sites) {
+  sites_.insert(sites_.end(), sites.begin(), sites.end());
+}
+
+void SurfaceGroup::Begin() {
+  patch_.sites = sites_.data();
+  pieces_.clear();
+  for (uint32_t side = 0; side < patch_.edge_count; ++side) {
+    pieces_.push_back({side, side, kNone, kNone});
+  }
+  last_pieces_ = 0;
+  along_.assign(patch_.edge_count, 0);
+}
+
+void SurfaceGroup::Follow() {
+  const size_t end = pieces_.size();
+  for (size_t i = last_pieces_; i < end; ++i) {
+    const uint32_t slot = patch_.edge_slot[pieces_[i].edge];
+    if (slot == Patch::kShort) continue;
+    const uint32_t side = pieces_[i].side;
+    ++along_[side];
+    pieces_[i].middle = static_cast<uint32_t>(patch_.midpoints) + slot;
+    pieces_[i].halves = static_cast<uint32_t>(pieces_.size());
+    for (const size_t half : patch_.halves) {
+      pieces_.push_back({static_cast<uint32_t>(half) + slot, side, kNone, kNone});
+    }
+  }
+  last_pieces_ = end;
+}
+
+bool SurfaceGroup::Expand(const SurfaceRules& rules, uint32_t level) {
+  Begin();
+  PatchStep step;
+  for (; (step = patch_.Step(rules, level)) == PatchStep::kSplit; ++level) Follow();
+  return step == PatchStep::kDone;
+}
+
+bool SurfaceGroup::Expand(const SurfaceRules& rules, uint32_t level,
+                          std::span<const uint64_t> corners) {
+  Begin();
+  upper_.assign(corners.begin(), corners.end());
+  level_.assign(corners.size(), 0);
+  PatchStep step;
+  for (; (step = patch_.Step(rules, level)) == PatchStep::kSplit; ++level) {
+    Follow();
+    upper_.resize(patch_.vertex_count);
+    level_.resize(patch_.vertex_count, static_cast<uint8_t>(level + 1));
+    for (size_t k = 0; k < patch_.long_count; ++k) {
+      const Identity a{0, upper_[patch_.long_a[k]]}, b{0, upper_[patch_.long_b[k]]};
+      upper_[patch_.midpoints + k] = MidpointIdentity(a, b).hi;
+    }
+  }
+  return step == PatchStep::kDone;
+}
+
+std::span<const uint32_t> SurfaceGroup::Along(size_t side) {
+  chain_.clear();
+  Collect(static_cast<uint32_t>(side));
+  return chain_;
+}
+
+void SurfaceGroup::Collect(uint32_t piece) {
+  const Piece& p = pieces_[piece];
+  if (p.middle == kNone) return;
+  Collect(p.halves);
+  chain_.push_back(p.middle);
+  Collect(p.halves + 1);
+}
+
+}  // namespace fjord
