@@ -16,12 +16,18 @@ namespace {
 
 constexpr char kDemo[] = FJORD_SOURCE_DIR "/examples/taiwan-rising.scene";
 
+// The lists that the frames name.
+AssetSet& Assets() {
+  static AssetSet assets;
+  return assets;
+}
+
 v1::FrameScene Frame(const std::string& path, uint32_t number, const std::vector<Setting>& sets) {
   LoadResult loaded = LoadSceneFile(path, sets);
   FJORD_CHECK(loaded.ok(), loaded.errors.front().ToString());
   const auto animation = Animation::Make(std::move(loaded.loaded));
   FJORD_CHECK(animation.ok(), animation.error().ToString());
-  Result<v1::FrameScene> frame = (*animation)->Inbetween(number);
+  Result<v1::FrameScene> frame = (*animation)->Inbetween(number, &Assets());
   FJORD_CHECK(frame.ok(), frame.error().ToString());
   return std::move(*frame);
 }
@@ -41,7 +47,7 @@ void MicroTriangles(benchmark::State& state) {
   const v1::FrameScene frame = DemoFrame(static_cast<int>(state.range(0)));
   uint64_t triangles = 0;
   for (auto _ : state) {
-    const Result<RenderedFrame> rendered = RenderFrame(frame, {.threads = 1});
+    const Result<RenderedFrame> rendered = RenderFrame(frame, {.threads = 1, .assets = &Assets()});
     FJORD_CHECK(rendered.ok(), rendered.error().message);
     triangles = rendered->stats.triangles;
   }
@@ -63,7 +69,7 @@ BENCHMARK(MicroTriangles)->Apply(Levels)->Unit(benchmark::kMillisecond);
 void DemoFrame1080(benchmark::State& state) {
   const v1::FrameScene frame = DemoFrame(4);
   for (auto _ : state) {
-    const Result<RenderedFrame> rendered = RenderFrame(frame, {.threads = 1});
+    const Result<RenderedFrame> rendered = RenderFrame(frame, {.threads = 1, .assets = &Assets()});
     FJORD_CHECK(rendered.ok(), rendered.error().message);
     const Result<PictureInfo> info = DescribeFrame(frame);
     benchmark::DoNotOptimize(EncodePicture(rendered->picture, *info));
@@ -72,7 +78,8 @@ void DemoFrame1080(benchmark::State& state) {
 BENCHMARK(DemoFrame1080)->Unit(benchmark::kMillisecond);
 
 void EncodePng1080(benchmark::State& state) {
-  const Result<RenderedFrame> rendered = RenderFrame(DemoFrame(4), {.threads = 1});
+  const Result<RenderedFrame> rendered =
+      RenderFrame(DemoFrame(4), {.threads = 1, .assets = &Assets()});
   FJORD_CHECK(rendered.ok(), rendered.error().message);
   for (auto _ : state) benchmark::DoNotOptimize(EncodePicture(rendered->picture, {}));
 }
@@ -83,7 +90,7 @@ void DemoFrames(benchmark::State& state) {
   const v1::FrameScene frame = Frame(kDemo, 72, {});
   for (auto _ : state) {
     const Result<RenderedFrame> rendered =
-        RenderFrame(frame, {.threads = static_cast<int>(state.range(0))});
+        RenderFrame(frame, {.threads = static_cast<int>(state.range(0)), .assets = &Assets()});
     FJORD_CHECK(rendered.ok(), rendered.error().message);
     benchmark::DoNotOptimize(EncodePicture(rendered->picture, {}));
   }
@@ -96,7 +103,7 @@ BENCHMARK(DemoFrames)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTim
 // the frame at once, which is what a tile alone makes against its share.
 void TilesAlone(benchmark::State& state) {
   const v1::FrameScene frame = DemoFrame(4);
-  const Result<RenderedFrame> whole = RenderFrame(frame, {.threads = 1});
+  const Result<RenderedFrame> whole = RenderFrame(frame, {.threads = 1, .assets = &Assets()});
   FJORD_CHECK(whole.ok(), whole.error().message);
   constexpr uint32_t kWidth = 1920, kHeight = 1080, kTile = 64;
   uint64_t triangles = 0;
@@ -104,8 +111,9 @@ void TilesAlone(benchmark::State& state) {
     triangles = 0;
     for (uint32_t y = 0; y < kHeight; y += kTile) {
       for (uint32_t x = 0; x < kWidth; x += kTile) {
-        const Result<RenderedFrame> tile = RenderTile(
-            frame, x, y, kTile, std::min(kTile, kHeight - y), {.threads = 1, .patch_size = 256});
+        const Result<RenderedFrame> tile =
+            RenderTile(frame, x, y, kTile, std::min(kTile, kHeight - y),
+                       {.threads = 1, .patch_size = 256, .assets = &Assets()});
         FJORD_CHECK(tile.ok(), tile.error().message);
         triangles += tile->stats.triangles;
       }
@@ -119,12 +127,12 @@ BENCHMARK(TilesAlone)->Unit(benchmark::kMillisecond)->Iterations(1);
 // The dense tile in the middle.
 void OneTileAlone(benchmark::State& state) {
   const v1::FrameScene frame = DemoFrame(4);
-  const Result<RenderedFrame> whole = RenderFrame(frame, {.threads = 1});
+  const Result<RenderedFrame> whole = RenderFrame(frame, {.threads = 1, .assets = &Assets()});
   FJORD_CHECK(whole.ok(), whole.error().message);
   uint64_t triangles = 0;
   for (auto _ : state) {
     const Result<RenderedFrame> tile =
-        RenderTile(frame, 928, 508, 64, 64, {.threads = 1, .patch_size = 256});
+        RenderTile(frame, 928, 508, 64, 64, {.threads = 1, .patch_size = 256, .assets = &Assets()});
     FJORD_CHECK(tile.ok(), tile.error().message);
     triangles = tile->stats.triangles;
   }

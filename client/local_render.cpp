@@ -112,7 +112,8 @@ Result<> RenderFrames(const LocalRenderJob& job, FrameFolder* folder, FrameProgr
   for (uint32_t number = job.first; number <= job.last; ++number) {
     if (job.cancel != nullptr && job.cancel->load())
       return MakeError(ErrorCode::kCancelled, "interrupted");
-    const Result<v1::FrameScene> frame = job.animation->Inbetween(number);
+    AssetSet assets;
+    const Result<v1::FrameScene> frame = job.animation->Inbetween(number, &assets);
     if (!frame.ok()) return frame.error();
     const Result<Digest> key = FrameKey(*frame);
     if (!key.ok()) return key.error();
@@ -122,6 +123,7 @@ Result<> RenderFrames(const LocalRenderJob& job, FrameFolder* folder, FrameProgr
       continue;
     }
     const auto start = Clock::now();
+    options.assets = &assets;
     Result<RenderedFrame> rendered = RenderFrame(*frame, options);
     if (!rendered.ok()) return rendered.error();
     const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start);

@@ -56,7 +56,7 @@ Result<uint32_t> EnginePlanner::LastFrame(const Digest& scene) {
 Result<Digest> EnginePlanner::KeyOf(const Digest& scene, uint32_t frame) {
   const Result<std::shared_ptr<const Animation>> animation = AnimationOf(scene);
   if (!animation.ok()) return animation.error();
-  const Result<v1::FrameScene> inbetween = animation.value()->Inbetween(frame);
+  const Result<v1::FrameScene> inbetween = animation.value()->Inbetween(frame, nullptr);
   if (!inbetween.ok()) return inbetween.error();
   return FrameKey(*inbetween);
 }

@@ -34,7 +34,8 @@ class EngineRenderer : public UnitRenderer {
     const auto begin = std::chrono::steady_clock::now();
     const Result<std::shared_ptr<const Animation>> animation = AnimationOf(order.scene);
     if (!animation.ok()) return animation.error();
-    const Result<v1::FrameScene> scene = animation.value()->Inbetween(order.frame);
+    AssetSet assets;
+    const Result<v1::FrameScene> scene = animation.value()->Inbetween(order.frame, &assets);
     if (!scene.ok()) return scene.error();
     const Result<Digest> key = FrameKey(*scene);
     if (!key.ok()) return key.error();
@@ -44,6 +45,7 @@ class EngineRenderer : public UnitRenderer {
     }
     RenderOptions options;
     options.threads = threads_;
+    options.assets = &assets;
     options.cancel = &cancel;
     options.progress = [&progress](double) { progress.fetch_add(1, std::memory_order_relaxed); };
     const Result<RenderedFrame> frame = RenderFrame(*scene, options);

@@ -96,9 +96,10 @@ int RunFractalize(const Options& options) {
                       scene.animation->last_frame(), options.scene);
   if (!range.ok()) return console::Fail(range.error());
 
-  const Result<v1::FrameScene> frame = scene.animation->Inbetween(options.frame);
+  AssetSet assets;
+  const Result<v1::FrameScene> frame = scene.animation->Inbetween(options.frame, &assets);
   if (!frame.ok()) return console::Fail(InScene(frame.error(), options.scene));
-  const Result<BuiltFrame> built = BuildFrame(*frame);
+  const Result<BuiltFrame> built = BuildFrame(*frame, &assets);
   if (!built.ok()) return console::Fail(InScene(built.error(), options.scene));
   const Result<ShapeFile> shape = Weld(*built, scene.animation->scene(), options);
   if (!shape.ok()) return console::Fail(shape.error());

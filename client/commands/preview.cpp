@@ -56,9 +56,10 @@ int RunPreview(const Options& options) {
       WithinAnimation({options.frame, options.frame}, scene.animation->first_frame(),
                       scene.animation->last_frame(), options.scene);
   if (!range.ok()) return console::Fail(range.error());
-  const Result<v1::FrameScene> frame = scene.animation->Inbetween(options.frame);
+  AssetSet assets;
+  const Result<v1::FrameScene> frame = scene.animation->Inbetween(options.frame, &assets);
   if (!frame.ok()) return console::Fail(InScene(frame.error(), options.scene));
-  const Result<BuiltFrame> built = BuildFrame(*frame);
+  const Result<BuiltFrame> built = BuildFrame(*frame, &assets);
   if (!built.ok()) return console::Fail(InScene(built.error(), options.scene));
   const Result<Drawn> drawn = Draw(*built, options);
   if (!drawn.ok()) return console::Fail(drawn.error());

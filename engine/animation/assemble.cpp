@@ -1,7 +1,5 @@
 #include "engine/animation/assemble.h"
 
-#include <algorithm>
-
 #include "engine/fractal/registry.h"
 #include "engine/scene/transform.h"
 
@@ -16,13 +14,6 @@ void Append(const v1::Vec3& v, Doubles* values) {
 
 void Append(const v1::Color& color, double factor, Doubles* values) {
   for (const double x : {color.r(), color.g(), color.b()}) values->Add(factor * x);
-}
-
-void Append(std::span<const Vec3> points, Doubles* values) {
-  values->Reserve(values->size() + static_cast<int>(3 * points.size()));
-  for (const Vec3& point : points) {
-    for (int i = 0; i < 3; ++i) values->AddAlreadyReserved(point[i]);
-  }
 }
 
 void AssembleMaterial(const v1::Material& now, uint32_t picture_height,
@@ -84,20 +75,7 @@ void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame) {
   }
 }
 
-void AssembleObject(const v1::Object& now, const FramePose& pose, uint32_t picture_height,
-                    v1::FrameObject* object) {
-  Append(pose.points, object->mutable_point());
-  if (!std::equal(pose.points.begin(), pose.points.end(), pose.rest.begin(), pose.rest.end())) {
-    Append(pose.rest, object->mutable_rest());
-  }
-  const Geometry& topology = *pose.topology;
-  object->mutable_face_size()->Add(topology.face_size.begin(), topology.face_size.end());
-  object->mutable_face_vertex()->Add(topology.face_vertex.begin(), topology.face_vertex.end());
-  object->set_curve(topology.curve);
-  object->set_closed(topology.closed);
-  for (const Rgb& color : pose.colors) {
-    for (int i = 0; i < 3; ++i) object->add_color(color[i]);
-  }
+void AssembleObject(const v1::Object& now, uint32_t picture_height, v1::FrameObject* object) {
   const ObjectTransform transform(now.transform());
   if (!transform.IsIdentity()) {
     for (const double entry : transform.Rows()) object->add_transform(entry);

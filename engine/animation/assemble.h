@@ -2,12 +2,6 @@
 // left at zero, so that equal pictures have equal keys.
 #pragma once
 
-#include <span>
-#include <vector>
-
-#include "engine/base/result.h"
-#include "engine/geometry/mesh.h"
-#include "engine/scene/shapes.h"
 #include "fjord/v1/frame.pb.h"
 #include "fjord/v1/scene.pb.h"
 
@@ -16,16 +10,8 @@ namespace fjord {
 // Output, camera, background, lights and sea.
 void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame);
 
-// What the coarse shape of an object is in this frame.
-struct FramePose {
-  const Geometry* topology = nullptr;  // faces, kind
-  std::span<const Vec3> points;
-  std::span<const Vec3> rest;
-  std::span<const Rgb> colors;
-};
-
-void AssembleObject(const v1::Object& now, const FramePose& pose, uint32_t picture_height,
-                    v1::FrameObject* object);
+// All but the shape (frame_geometry.h) and the fractal.
+void AssembleObject(const v1::Object& now, uint32_t picture_height, v1::FrameObject* object);
 
 // All but the fineness.
 void AssembleFractal(const v1::Fractal& now, v1::FrameFractal* fractal);

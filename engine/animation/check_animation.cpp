@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/animation/coarse.h"
+#include "engine/animation/frame_geometry.h"
 #include "engine/base/clamp.h"
 
 namespace fjord {
@@ -206,11 +207,15 @@ Result<AnimationCheck> CheckAnimation(const Animation& animation,
     if (object.has_fractal()) checkers.back().emplace(object.name(), options);
   }
   for (uint32_t frame = animation.first_frame(); frame <= animation.last_frame(); ++frame) {
-    const Result<v1::FrameScene> scene = animation.Inbetween(frame);
+    AssetSet assets;
+    const Result<v1::FrameScene> scene = animation.Inbetween(frame, &assets);
     if (!scene) return scene.error();
     for (size_t i = 0; i < checkers.size(); ++i) {
       if (!checkers[i]) continue;
-      Result<> added = checkers[i]->Add(frame, scene->object(static_cast<int>(i)));
+      const Result<v1::FrameObject> object =
+          WrittenOut(scene->object(static_cast<int>(i)), &assets);
+      if (!object) return object.error();
+      Result<> added = checkers[i]->Add(frame, *object);
       if (!added) return added.error();
     }
     if (options.progress && !options.progress(frame)) {

@@ -10,13 +10,10 @@
 
 namespace fjord {
 
-// Points, rest pose, colours; faces cut into triangles by the rest pose, so that every frame of a
-// shot has the same triangles. kInvalid where the message is inconsistent (indices, counts).
-Result<CoarseShape> CoarseShapeOf(const v1::FrameObject& object);
-
 FractalSettings FractalSettingsOf(const v1::FrameFractal& fractal);
 
-// The object's fractal, prepared by its method. Needs object.has_fractal(). `view` as in
+// The object's fractal, prepared by its method. Needs object.has_fractal() and
+// all lists written out (frame_geometry.h). `view` as in
 // MethodInfo.
 Result<std::unique_ptr<PreparedFractal>> PrepareFractal(const v1::FrameObject& object,
                                                         const AdaptiveView* view);

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "engine/animation/frame_geometry.h"
 #include "engine/animation/walk.h"
 #include "engine/fractal/registry.h"
 
@@ -10,6 +11,7 @@ namespace fjord {
 Result<std::string> FrameKeyBytes(const v1::FrameScene& frame) {
   std::map<std::string, uint32_t> used;  // sorted by name
   for (int i = 0; i < frame.object_size(); ++i) {
+    if (Result<> form = CheckGeometryForm(frame.object(i)); !form) return form.error();
     if (!frame.object(i).has_fractal()) continue;
     const std::string& name = frame.object(i).fractal().method();
     const MethodInfo* method = FindFractalMethod(name);

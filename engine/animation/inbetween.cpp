@@ -6,6 +6,7 @@
 
 #include "engine/animation/assemble.h"
 #include "engine/animation/fineness.h"
+#include "engine/animation/frame_geometry.h"
 #include "engine/animation/motion.h"
 #include "engine/base/clamp.h"
 #include "engine/scene/track.h"
@@ -53,7 +54,7 @@ class SceneAnimation final : public Animation {
   uint32_t first_frame() const override { return 1; }
   uint32_t last_frame() const override { return scene().output().frames(); }
 
-  Result<v1::FrameScene> Inbetween(uint32_t frame) const override {
+  Result<v1::FrameScene> Inbetween(uint32_t frame, AssetSet* assets) const override {
     if (frame < first_frame() || frame > last_frame()) {
       return Invalid("frame " + std::to_string(frame) + " is outside the animation, frames " +
                      std::to_string(first_frame()) + " to " + std::to_string(last_frame()));
@@ -63,7 +64,7 @@ class SceneAnimation final : public Animation {
     v1::FrameScene out;
     AssembleSurroundings(now, &out);
     for (int i = 0; i < now.objects_size(); ++i) {
-      Result<> added = AddObject(now, i, frame, &out);
+      Result<> added = AddObject(now, i, frame, &out, assets);
       if (!added) return added.error();
     }
     return out;
@@ -73,6 +74,7 @@ class SceneAnimation final : public Animation {
   struct ObjectPlan {
     Motion motion;
     bool shape_tracked = false;                 // by tracks; then there are no keys
+    FramePose still;                            // the lists that are long and never change
     std::optional<v1::FrameFineness> fineness;  // of the shot; none: by frame
   };
 
@@ -105,7 +107,15 @@ class SceneAnimation final : public Animation {
       if (Result<> done = read(key.shape()); !done) return done;
     }
     if (keys.empty()) return Invalid("objects[" + object.name() + "] has no shape");
-    plans_.push_back({Motion::Make(object, std::move(keys)), shape_tracked, std::nullopt});
+    const bool one_key = keys.size() == 1 && !shape_tracked;
+    plans_.push_back({Motion::Make(object, std::move(keys)), shape_tracked, {}, std::nullopt});
+    ObjectPlan& plan = plans_.back();
+    plan.still.rest_asset = AssetOf(plan.motion.rest());
+    plan.still.faces_asset = AssetOf(plan.motion.topology());
+    if (one_key) {
+      plan.still.points_asset = plan.still.rest_asset;
+      plan.still.colors_asset = AssetOf(plan.motion.ColorsAt(1));
+    }
     Lighten(shape_tracked, template_.mutable_objects(index));
     return {};
   }
@@ -178,9 +188,11 @@ class SceneAnimation final : public Animation {
         demands, RestBox(index), scene().output().height(), CellsAlong(frames.size()));
   }
 
-  Result<> AddObject(const v1::Scene& now, int index, uint32_t frame, v1::FrameScene* out) const {
+  Result<> AddObject(const v1::Scene& now, int index, uint32_t frame, v1::FrameScene* out,
+                     AssetSet* assets) const {
     const v1::Object& object = now.objects(index);
     const ObjectPlan& plan = plans_[static_cast<size_t>(index)];
+    FramePose pose = plan.still;
     std::vector<Vec3> points;
     std::vector<Rgb> colors;
     if (plan.shape_tracked) {
@@ -189,9 +201,13 @@ class SceneAnimation final : public Animation {
       points = std::move(geometry->points);
       colors = std::move(geometry->colors);
     } else {
-      plan.motion.PointsAt(object, frame, &points);
-      colors = plan.motion.ColorsAt(frame);
+      if (!pose.points_asset) plan.motion.PointsAt(object, frame, &points);
+      if (!pose.colors_asset) colors = plan.motion.ColorsAt(frame);
     }
+    pose.topology = &plan.motion.topology();
+    pose.points = points;
+    pose.rest = plan.motion.rest();
+    pose.colors = colors;
     for (int i = 1; i < object.material().ramp_size(); ++i) {
       if (object.material().ramp(i).height() <= object.material().ramp(i - 1).height()) {
         return AtFrame(frame, object, "tracks take ramp heights out of order");
@@ -199,8 +215,8 @@ class SceneAnimation final : public Animation {
     }
     v1::FrameObject* message = out->add_object();
     const uint32_t height = scene().output().height();
-    AssembleObject(object, {&plan.motion.topology(), points, plan.motion.rest(), colors}, height,
-                   message);
+    AssembleGeometry(pose, message, assets);
+    AssembleObject(object, height, message);
     if (!object.has_fractal()) return {};
     AssembleFractal(object.fractal(), message->mutable_fractal());
     const FinenessDemand demand = DemandOf(object, frame);

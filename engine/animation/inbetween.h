@@ -9,6 +9,7 @@
 
 #include <memory>
 
+#include "engine/asset/asset.h"
 #include "engine/base/result.h"
 #include "engine/scene/load.h"
 #include "fjord/v1/frame.pb.h"
@@ -25,8 +26,9 @@ class Animation {
   virtual const v1::Scene& scene() const = 0;
   virtual uint32_t first_frame() const = 0;
   virtual uint32_t last_frame() const = 0;
-  // frame in first_frame()..last_frame(), else kInvalid.
-  virtual Result<v1::FrameScene> Inbetween(uint32_t frame) const = 0;
+  // frame in first_frame()..last_frame(), else kInvalid. `assets`, where it is not null, gets the
+  // lists that the frame scene only names; a key can do without.
+  virtual Result<v1::FrameScene> Inbetween(uint32_t frame, AssetSet* assets) const = 0;
 };
 
 }  // namespace fjord

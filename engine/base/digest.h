@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,8 @@ struct Digest {
 };
 
 bool IsDigestHex(std::string_view text);
+// None where it is no digest.
+std::optional<Digest> ParseDigest(std::string_view text);
 
 // Not for sharing between threads.
 class Sha256 {

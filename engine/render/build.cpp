@@ -1,10 +1,12 @@
 #include "engine/render/build.h"
 
+#include <algorithm>
 #include <bit>
 #include <string>
 #include <utility>
 
 #include "engine/animation/coarse.h"
+#include "engine/animation/frame_geometry.h"
 #include "engine/animation/walk.h"
 #include "engine/fractal/plain.h"
 #include "engine/fractal/registry.h"
@@ -132,10 +134,26 @@ Result<std::shared_ptr<const PreparedFractal>> Prepare(const CoarseShape& shape,
   return std::shared_ptr<const PreparedFractal>(std::move(*prepared));
 }
 
-Result<PreparedObject> MakePrepared(const v1::FrameObject& from, const AdaptiveView& view) {
+bool Finite(const CoarseShape& shape) {
+  const auto finite = [](const auto& list) {
+    return std::all_of(list.begin(), list.end(), [](const auto& item) {
+      for (int i = 0; i < 3; ++i) {
+        if (!(item[i] >= -kAbsurd && item[i] <= kAbsurd)) return false;
+      }
+      return true;
+    });
+  };
+  return finite(shape.now) && finite(shape.rest) && finite(shape.colors);
+}
+
+Result<PreparedObject> MakePrepared(const v1::FrameObject& from, const AssetResolver* assets,
+                                    const AdaptiveView& view) {
   PreparedObject object;
-  Result<CoarseShape> shape = CoarseShapeOf(from);
+  Result<CoarseShape> shape = CoarseShapeOf(from, assets);
   if (!shape) return shape.error();
+  if (!Finite(*shape)) {
+    return Inconsistent("an object's points and colours must be finite and below 1e15");
+  }
   object.shape = std::make_shared<const CoarseShape>(std::move(*shape));
   if (from.has_fractal()) object.settings = FractalSettingsOf(from.fractal());
   auto prepared = Prepare(*object.shape, object.settings, view);
@@ -144,8 +162,8 @@ Result<PreparedObject> MakePrepared(const v1::FrameObject& from, const AdaptiveV
   return object;
 }
 
-Result<BuiltObject> BuildObject(const v1::FrameObject& from, const View& view, PreparedCache& cache,
-                                Reader* read) {
+Result<BuiltObject> BuildObject(const v1::FrameObject& from, const AssetResolver* assets,
+                                const View& view, PreparedCache& cache, Reader* read) {
   BuiltObject object;
   object.material = MaterialOf(from.material(), read);
   if (from.transform_size() == 12 && Finite(from.transform())) {
@@ -153,14 +171,11 @@ Result<BuiltObject> BuildObject(const v1::FrameObject& from, const View& view, P
   } else if (from.transform_size() != 0) {
     read->Fail(Inconsistent("a transform needs 12 finite numbers"));
   }
-  if (!Finite(from.point()) || !Finite(from.rest()) || !Finite(from.color())) {
-    read->Fail(Inconsistent("an object's points and colours must be finite and below 1e15"));
-  }
   if (!read->ok()) return read->error();
   const AdaptiveView adaptive = MakeAdaptiveView(view, object.transform);
   const Result<Digest> key = PreparedKey(from, adaptive);
   if (!key) return key.error();
-  auto prepared = cache.Get(*key, [&] { return MakePrepared(from, adaptive); });
+  auto prepared = cache.Get(*key, [&] { return MakePrepared(from, assets, adaptive); });
   if (!prepared) return prepared.error();
   object.prepared = (*prepared)->prepared;
   object.shape = (*prepared)->shape;
@@ -170,7 +185,8 @@ Result<BuiltObject> BuildObject(const v1::FrameObject& from, const View& view, P
 
 }  // namespace
 
-Result<BuiltFrame> BuildFrame(const v1::FrameScene& from, PreparedCache& cache) {
+Result<BuiltFrame> BuildFrame(const v1::FrameScene& from, const AssetResolver* assets,
+                              PreparedCache& cache) {
   BuiltFrame frame;
   Reader read;
   frame.width = from.output().width();
@@ -223,7 +239,7 @@ Result<BuiltFrame> BuildFrame(const v1::FrameScene& from, PreparedCache& cache) 
   if (!read.ok()) return read.error();
   const View view = MakeView(frame.camera, frame.width, frame.height);
   for (const v1::FrameObject& object : from.object()) {
-    Result<BuiltObject> built = BuildObject(object, view, cache, &read);
+    Result<BuiltObject> built = BuildObject(object, assets, view, cache, &read);
     if (!built) return built.error();
     frame.objects.push_back(std::move(*built));
   }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "engine/asset/asset.h"
 #include "engine/base/result.h"
 #include "engine/image/codec.h"
 #include "engine/image/picture.h"
@@ -19,6 +20,8 @@ struct RenderOptions {
   int threads = 1;        // 0: one a core
   int tile_size = 0;      // pixels, a multiple of 16; 0: chosen
   size_t patch_size = 0;  // leaves made at a time; 0: chosen
+  // The lists that the frame scene only names; null where it names none.
+  const AssetResolver* assets = nullptr;
   // Called with the share done, 0..1, from any thread, at most once a tile. May be empty.
   std::function<void(double)> progress;
   // Set by anyone to end early with kCancelled. May be null.

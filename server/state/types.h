@@ -137,6 +137,4 @@ struct Refusal {
 template <typename T>
 using Answer = std::variant<T, Refusal>;
 
-std::optional<Digest> ParseDigest(std::string_view hex);
-
 }  // namespace fjord::server

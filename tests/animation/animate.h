@@ -24,7 +24,7 @@ inline std::shared_ptr<const Animation> Animate(const std::string& text,
 }
 
 inline v1::FrameScene FrameOf(const Animation& animation, uint32_t frame) {
-  Result<v1::FrameScene> scene = animation.Inbetween(frame);
+  Result<v1::FrameScene> scene = animation.Inbetween(frame, nullptr);
   EXPECT_TRUE(scene.ok()) << (scene.ok() ? "" : scene.error().ToString());
   return scene.ok() ? *scene : v1::FrameScene();
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/animation/coarse.h"
+#include "engine/animation/frame_geometry.h"
 #include "engine/fractal/registry.h"
 #include "tests/animation/animate.h"
 
@@ -124,8 +125,8 @@ class Planted : public Animation {
   const v1::Scene& scene() const override { return base_->scene(); }
   uint32_t first_frame() const override { return base_->first_frame(); }
   uint32_t last_frame() const override { return base_->last_frame(); }
-  Result<v1::FrameScene> Inbetween(uint32_t frame) const override {
-    Result<v1::FrameScene> scene = base_->Inbetween(frame);
+  Result<v1::FrameScene> Inbetween(uint32_t frame, AssetSet* assets) const override {
+    Result<v1::FrameScene> scene = base_->Inbetween(frame, assets);
     if (scene && frame >= frame_) fault_(&*scene);
     return scene;
   }
@@ -175,18 +176,18 @@ TEST(CoarseTest, FacesAreCutByTheRestPose) {
     object.add_point(value);
   object.add_face_size(4);
   for (const uint32_t vertex : {0u, 1u, 2u, 3u}) object.add_face_vertex(vertex);
-  const Result<CoarseShape> shape = CoarseShapeOf(object);
+  const Result<CoarseShape> shape = CoarseShapeOf(object, nullptr);
   ASSERT_TRUE(shape.ok());
   EXPECT_EQ(shape->triangles.size(), 2u);
   EXPECT_EQ(shape->rest, shape->now);
   object.set_face_vertex(3, 4);
-  EXPECT_FALSE(CoarseShapeOf(object).ok());
+  EXPECT_FALSE(CoarseShapeOf(object, nullptr).ok());
   object.set_face_vertex(3, 3);
   object.set_face_size(0, 3);
-  EXPECT_FALSE(CoarseShapeOf(object).ok());
+  EXPECT_FALSE(CoarseShapeOf(object, nullptr).ok());
   object.set_face_size(0, 4);
   object.add_rest(1);
-  EXPECT_FALSE(CoarseShapeOf(object).ok());
+  EXPECT_FALSE(CoarseShapeOf(object, nullptr).ok());
 }
 
 TEST(CoarseTest, C47_SettingsArriveAsTheSceneGivesThem) {

@@ -305,7 +305,7 @@ TEST(InbetweenTest, TheFrameNumberIsNotInTheKey) {
 TEST(InbetweenTest, FramesOutsideTheAnimationAreRefused) {
   const auto animation = Animate(kStill);
   for (const uint32_t frame : {0u, 22u, 4294967295u}) {
-    const Result<v1::FrameScene> scene = animation->Inbetween(frame);
+    const Result<v1::FrameScene> scene = animation->Inbetween(frame, nullptr);
     ASSERT_FALSE(scene.ok());
     EXPECT_THAT(scene.error().message, HasSubstr("is outside the animation, frames 1 to 21"));
   }

@@ -59,7 +59,7 @@ Truth RenderDirectly(int frames, int width, int height, int samples = 1) {
   const auto animation = Animation::Make(loaded.loaded);
   EXPECT_TRUE(animation.ok()) << (animation.ok() ? "" : animation.error().ToString());
   for (int frame = 1; frame <= frames; ++frame) {
-    const auto scene = animation.value()->Inbetween(frame);
+    const auto scene = animation.value()->Inbetween(frame, nullptr);
     const auto rendered = RenderFrame(*scene, {});
     EXPECT_TRUE(rendered.ok());
     truth.key[frame] = FrameKey(*scene)->Hex();

@@ -34,8 +34,8 @@ void ShuffleFaces(v1::FrameObject* object) {
   }
 }
 
-void ProbeFrame(const std::string& name, v1::FrameScene frame, const Options& options,
-                Report& report) {
+void ProbeFrame(const std::string& name, v1::FrameScene frame, const AssetSet& assets,
+                const Options& options, Report& report) {
   const auto key = FrameKey(frame);
   if (!key.ok()) {
     report.Fail(name + "/key", key.error().ToString());
@@ -47,6 +47,7 @@ void ProbeFrame(const std::string& name, v1::FrameScene frame, const Options& op
   }
   RenderOptions render;
   render.threads = options.threads;
+  render.assets = &assets;
   render.tile_size = options.tile;
   render.patch_size = options.patch;
   for (uint32_t format = 0; format < 4; ++format) {
@@ -79,12 +80,13 @@ void ProbeScene(const std::string& path, const std::string& name, const Options&
   const Animation& shot = *animation.value();
   for (uint32_t number = shot.first_frame(); number <= shot.last_frame(); ++number) {
     const std::string item = name + '/' + std::to_string(number);
-    const auto frame = shot.Inbetween(number);
+    AssetSet assets;
+    const auto frame = shot.Inbetween(number, &assets);
     if (!frame.ok()) {
       report.Fail(item, frame.error().ToString());
       continue;
     }
-    ProbeFrame(item, frame.value(), options, report);
+    ProbeFrame(item, frame.value(), assets, options, report);
   }
 }
 

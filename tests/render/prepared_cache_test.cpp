@@ -115,7 +115,7 @@ TEST(PreparedCacheTest, AStillIslandUnderAMovingCameraIsPreparedOnce) {
     for (const double x : {1., 0., 0., .1 * frame, 0., 1., 0., 0., 0., 0., 1., 0.}) {
       scene.mutable_object(0)->add_transform(x);
     }
-    ASSERT_TRUE(BuildFrame(scene, cache).ok());
+    ASSERT_TRUE(BuildFrame(scene, nullptr, cache).ok());
   }
   EXPECT_EQ(cache.stats().made, 1u);
   EXPECT_EQ(cache.stats().found, 4u);
@@ -126,7 +126,7 @@ TEST(PreparedCacheTest, WhatChangesTheShapeMakesAnother) {
   const v1::FrameScene first = Island();
   uint64_t made = 0;
   const auto expect_new = [&](const v1::FrameScene& scene, const char* what) {
-    ASSERT_TRUE(BuildFrame(scene, cache).ok()) << what;
+    ASSERT_TRUE(BuildFrame(scene, nullptr, cache).ok()) << what;
     EXPECT_EQ(cache.stats().made, ++made) << what;
   };
   expect_new(first, "the first");
@@ -157,8 +157,8 @@ TEST(PreparedCacheTest, WhatChangesTheShapeMakesAnother) {
 TEST(PreparedCacheTest, D4_AKeptObjectDrawsWhatANewOneDraws) {
   PreparedCache kept(1 << 24), none(0);
   const v1::FrameScene scene = Island();
-  ASSERT_TRUE(BuildFrame(scene, kept).ok());
-  const Result<BuiltFrame> again = BuildFrame(scene, kept), anew = BuildFrame(scene, none);
+  ASSERT_TRUE(BuildFrame(scene, nullptr, kept).ok());
+  const Result<BuiltFrame> again = BuildFrame(scene, nullptr, kept), anew = BuildFrame(scene, nullptr, none);
   ASSERT_TRUE(again.ok() && anew.ok());
   EXPECT_EQ(kept.stats().found, 1u);
   EXPECT_EQ(none.stats().objects, 0u);

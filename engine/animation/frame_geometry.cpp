@@ -1,0 +1,240 @@
+#include "engine/animation/frame_geometry.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "engine/geometry/triangulate.h"
+
+namespace fjord {
+namespace {
+
+using Doubles = google::protobuf::RepeatedField<double>;
+
+Error Inconsistent(const std::string& what) { return Invalid("frame scene: " + what); }
+
+// Long lists of points and colours as three numbers each.
+template <typename List>
+void Append(const List& list, Doubles* values) {
+  values->Reserve(values->size() + static_cast<int>(3 * list.size()));
+  for (const auto& item : list) {
+    for (int i = 0; i < 3; ++i) values->AddAlreadyReserved(item[i]);
+  }
+}
+
+void Name(const SharedAsset& asset, v1::FrameAsset* message, AssetSet* assets) {
+  message->set_digest(asset->digest.Hex());
+  message->set_numbers(asset->numbers);
+  if (assets != nullptr) assets->Add(asset);
+}
+
+Vec3 VectorAt(const Doubles& values, size_t i) {
+  const int at = static_cast<int>(3 * i);
+  return {values[at], values[at + 1], values[at + 2]};
+}
+
+Result<SharedAsset> Resolve(const v1::FrameAsset& named, const AssetResolver* assets) {
+  const std::optional<Digest> digest = ParseDigest(named.digest());
+  if (!digest) return Inconsistent("\"" + named.digest() + "\" is not a digest");
+  if (assets == nullptr) {
+    return MakeError(ErrorCode::kNotFound,
+                     "frame scene: no assets are at hand for digest " + named.digest());
+  }
+  return assets->Find(*digest);
+}
+
+// One list, from where it is. `written` becomes a list of the right type.
+template <typename List, typename Written>
+Result<List> ListOf(const v1::FrameAsset* named, const AssetResolver* assets, const char* what,
+                    const Written& written) {
+  if (named == nullptr) return written();
+  Result<SharedAsset> asset = Resolve(*named, assets);
+  if (!asset) return asset.error();
+  const List* list = std::get_if<List>(&(*asset)->data);
+  if (list == nullptr || (*asset)->numbers != named->numbers()) {
+    return Inconsistent("the list with digest " + named->digest() + " holds no " + what +
+                        ", or another number of them");
+  }
+  return *list;
+}
+
+template <typename List>
+Result<List> TriplesOf(const Doubles& values, const v1::FrameAsset* named,
+                       const AssetResolver* assets, const char* what) {
+  return ListOf<List>(named, assets, what, [&]() -> Result<List> {
+    if (values.size() % 3 != 0) {
+      return Inconsistent(std::string("an object's ") + what + " need three numbers each");
+    }
+    List list;
+    list.reserve(static_cast<size_t>(values.size()) / 3);
+    for (size_t i = 0; 3 * i < static_cast<size_t>(values.size()); ++i) {
+      list.emplace_back(VectorAt(values, i));
+    }
+    return list;
+  });
+}
+
+const v1::FrameAsset* If(bool there, const v1::FrameAsset& asset) {
+  return there ? &asset : nullptr;
+}
+
+Result<FaceList> FacesOf(const v1::FrameObject& object, const AssetResolver* assets) {
+  return ListOf<FaceList>(
+      If(object.has_face_asset(), object.face_asset()), assets, "faces", [&]() -> Result<FaceList> {
+        return FaceList{{object.face_size().begin(), object.face_size().end()},
+                        {object.face_vertex().begin(), object.face_vertex().end()}};
+      });
+}
+
+struct Lists {
+  PointList points;
+  PointList rest;  // empty: as points
+  ColorList colors;
+  FaceList faces;
+};
+
+Result<Lists> ListsOf(const v1::FrameObject& object, const AssetResolver* assets) {
+  auto points = TriplesOf<PointList>(
+      object.point(), If(object.has_point_asset(), object.point_asset()), assets, "points");
+  if (!points) return points.error();
+  auto rest = TriplesOf<PointList>(object.rest(), If(object.has_rest_asset(), object.rest_asset()),
+                                   assets, "rest points");
+  if (!rest) return rest.error();
+  auto colors = TriplesOf<ColorList>(
+      object.color(), If(object.has_color_asset(), object.color_asset()), assets, "colours");
+  if (!colors) return colors.error();
+  auto faces = FacesOf(object, assets);
+  if (!faces) return faces.error();
+  const size_t count = points->size();
+  if ((!rest->empty() && rest->size() != count) || (!colors->empty() && colors->size() != count)) {
+    return Inconsistent("an object's points, rest pose and colours differ in number");
+  }
+  return Lists{std::move(*points), std::move(*rest), std::move(*colors), std::move(*faces)};
+}
+
+Result<> CheckFaces(const FaceList& faces, size_t points) {
+  uint64_t corners = 0;
+  for (const uint32_t size : faces.size) corners += size;
+  if (corners != faces.vertex.size()) {
+    return Inconsistent("an object's face sizes do not add up to its face vertices");
+  }
+  for (const uint32_t vertex : faces.vertex) {
+    if (vertex >= points) {
+      return Inconsistent("a face names vertex " + std::to_string(vertex + uint64_t{1}) + " of " +
+                          std::to_string(points));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+SharedAsset AssetOf(std::span<const Vec3> points) {
+  if (3 * points.size() <= kInlineNumbers) return nullptr;
+  return MakeAsset(PointList(points.begin(), points.end()));
+}
+
+SharedAsset AssetOf(std::span<const Rgb> colors) {
+  if (3 * colors.size() <= kInlineNumbers) return nullptr;
+  return MakeAsset(ColorList(colors.begin(), colors.end()));
+}
+
+SharedAsset AssetOf(const Geometry& topology) {
+  if (topology.face_size.size() + topology.face_vertex.size() <= kInlineNumbers) return nullptr;
+  return MakeAsset(FaceList{topology.face_size, topology.face_vertex});
+}
+
+void AssembleGeometry(const FramePose& pose, v1::FrameObject* object, AssetSet* assets) {
+  const SharedAsset points = pose.points_asset ? pose.points_asset : AssetOf(pose.points);
+  if (points) {
+    Name(points, object->mutable_point_asset(), assets);
+    const SharedAsset rest = pose.rest_asset ? pose.rest_asset : AssetOf(pose.rest);
+    if (rest->digest != points->digest) Name(rest, object->mutable_rest_asset(), assets);
+  } else {
+    Append(pose.points, object->mutable_point());
+    if (!std::equal(pose.points.begin(), pose.points.end(), pose.rest.begin(), pose.rest.end())) {
+      Append(pose.rest, object->mutable_rest());
+    }
+  }
+  const Geometry& topology = *pose.topology;
+  const SharedAsset faces = pose.faces_asset ? pose.faces_asset : AssetOf(topology);
+  if (faces) {
+    Name(faces, object->mutable_face_asset(), assets);
+  } else {
+    object->mutable_face_size()->Add(topology.face_size.begin(), topology.face_size.end());
+    object->mutable_face_vertex()->Add(topology.face_vertex.begin(), topology.face_vertex.end());
+  }
+  const SharedAsset colors = pose.colors_asset ? pose.colors_asset : AssetOf(pose.colors);
+  if (colors) {
+    Name(colors, object->mutable_color_asset(), assets);
+  } else {
+    Append(pose.colors, object->mutable_color());
+  }
+  object->set_curve(topology.curve);
+  object->set_closed(topology.closed);
+}
+
+Result<CoarseShape> CoarseShapeOf(const v1::FrameObject& object, const AssetResolver* assets) {
+  Result<Lists> lists = ListsOf(object, assets);
+  if (!lists) return lists.error();
+  CoarseShape shape;
+  shape.now = std::move(lists->points);
+  shape.rest = lists->rest.empty() ? shape.now : std::move(lists->rest);
+  shape.colors = std::move(lists->colors);
+  shape.curve = object.curve();
+  shape.closed = object.closed();
+  if (shape.curve) return shape;
+  if (Result<> sound = CheckFaces(lists->faces, shape.now.size()); !sound) return sound.error();
+  shape.triangles = Triangulate(shape.rest, lists->faces.size, lists->faces.vertex);
+  return shape;
+}
+
+Result<v1::FrameObject> WrittenOut(const v1::FrameObject& object, const AssetResolver* assets) {
+  Result<Lists> lists = ListsOf(object, assets);
+  if (!lists) return lists.error();
+  v1::FrameObject out = object;
+  for (Doubles* list : {out.mutable_point(), out.mutable_rest(), out.mutable_color()}) {
+    list->Clear();
+  }
+  out.clear_point_asset();
+  out.clear_rest_asset();
+  out.clear_color_asset();
+  out.clear_face_asset();
+  Append(lists->points, out.mutable_point());
+  Append(lists->rest, out.mutable_rest());
+  Append(lists->colors, out.mutable_color());
+  *out.mutable_face_size() = {lists->faces.size.begin(), lists->faces.size.end()};
+  *out.mutable_face_vertex() = {lists->faces.vertex.begin(), lists->faces.vertex.end()};
+  return out;
+}
+
+Result<> CheckGeometryForm(const v1::FrameObject& object) {
+  const auto check = [](uint64_t written, bool named, const v1::FrameAsset& asset,
+                        const char* what) -> Result<> {
+    if (named && written > 0) return Inconsistent(std::string(what) + " are written and named");
+    if (named && !IsDigestHex(asset.digest())) {
+      return Inconsistent("\"" + asset.digest() + "\" is not a digest");
+    }
+    if ((named && asset.numbers() <= kInlineNumbers) || written > kInlineNumbers) {
+      return Inconsistent(std::string(what) + " of more than " + std::to_string(kInlineNumbers) +
+                          " numbers are named by digest, and only those");
+    }
+    return {};
+  };
+  const auto size = [](const auto& list) { return static_cast<uint64_t>(list.size()); };
+  Result<> sound =
+      check(size(object.point()), object.has_point_asset(), object.point_asset(), "points");
+  if (sound) {
+    sound = check(size(object.rest()), object.has_rest_asset(), object.rest_asset(), "rest points");
+  }
+  if (sound) {
+    sound = check(size(object.color()), object.has_color_asset(), object.color_asset(), "colours");
+  }
+  if (sound) {
+    sound = check(size(object.face_size()) + size(object.face_vertex()), object.has_face_asset(),
+                  object.face_asset(), "faces");
+  }
+  return sound;
+}
+
+}  // namespace fjord
