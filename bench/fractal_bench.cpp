@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/base/check.h"
+#include "engine/base/fpenv.h"
 #include "engine/base/simd.h"
 #include "engine/formats/shape_file.h"
 #include "engine/fractal/registry.h"
@@ -162,6 +163,7 @@ void Register() {
 }  // namespace fjord
 
 int main(int argc, char** argv) {
+  fjord::SetFloatEnvironment();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   fjord::Register();

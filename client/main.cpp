@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include "client/cli.h"
+#include "engine/base/fpenv.h"
 
 namespace {
 
@@ -17,6 +18,7 @@ void KeepStandardStreams() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  fjord::SetFloatEnvironment();
   KeepStandardStreams();
   return fjord::RunCommandLine(argc, argv);
 }

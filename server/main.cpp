@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <string>
 
+#include "engine/base/fpenv.h"
 #include "proto/fjord/protocol.h"
 #include "server/server.h"
 
@@ -20,6 +21,7 @@ constexpr int kWrongUsage = 2;
 }  // namespace
 
 int main(int argc, char** argv) {
+  fjord::SetFloatEnvironment();
   fjord::server::ServerConfig config;
   std::string level = "info";
   CLI::App app("The coordinator of a Fjord farm: takes jobs, hands out frames, keeps pictures.",

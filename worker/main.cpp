@@ -8,6 +8,7 @@
 #include <ctime>
 #include <string>
 
+#include "engine/base/fpenv.h"
 #include "proto/fjord/protocol.h"
 #include "worker/identity.h"
 #include "worker/worker.h"
@@ -22,6 +23,7 @@ constexpr int kLookMs = 200;
 }  // namespace
 
 int main(int argc, char** argv) {
+  fjord::SetFloatEnvironment();
   fjord::worker::WorkerConfig config;
   std::string level = "info";
   std::vector<std::string> unit;

@@ -9,6 +9,7 @@
 #include "engine/animation/frame_geometry.h"
 #include "engine/animation/motion.h"
 #include "engine/base/clamp.h"
+#include "engine/base/fpenv.h"
 #include "engine/scene/track.h"
 
 namespace fjord {
@@ -55,6 +56,7 @@ class SceneAnimation final : public Animation {
   uint32_t last_frame() const override { return scene().output().frames(); }
 
   Result<v1::FrameScene> Inbetween(uint32_t frame, AssetSet* assets) const override {
+    SetFloatEnvironment();
     if (frame < first_frame() || frame > last_frame()) {
       return Invalid("frame " + std::to_string(frame) + " is outside the animation, frames " +
                      std::to_string(first_frame()) + " to " + std::to_string(last_frame()));
@@ -242,6 +244,7 @@ class SceneAnimation final : public Animation {
 }  // namespace
 
 Result<std::shared_ptr<const Animation>> Animation::Make(LoadedScene scene) {
+  SetFloatEnvironment();
   auto animation = std::make_shared<SceneAnimation>(std::move(scene));
   if (Result<> prepared = animation->Prepare(); !prepared) return prepared.error();
   return std::shared_ptr<const Animation>(std::move(animation));

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "engine/base/fpenv.h"
 #include "engine/image/picture_files.h"
 
 namespace fjord {
@@ -22,6 +23,7 @@ Result<const PictureFiles*> Open() {
     tried += (tried.empty() ? "" : ", ") + path.string();
     if (!fs::exists(path, none)) continue;
     void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    SetFloatEnvironment();
     void* entry = module == nullptr ? nullptr : dlsym(module, "FjordPictureFiles1");
     if (entry == nullptr) {
       const char* why = dlerror();

@@ -8,6 +8,7 @@
 #include "engine/animation/coarse.h"
 #include "engine/animation/frame_geometry.h"
 #include "engine/animation/walk.h"
+#include "engine/base/fpenv.h"
 #include "engine/fractal/plain.h"
 #include "engine/fractal/registry.h"
 #include "engine/render/view.h"
@@ -187,6 +188,7 @@ Result<BuiltObject> BuildObject(const v1::FrameObject& from, const AssetResolver
 
 Result<BuiltFrame> BuildFrame(const v1::FrameScene& from, const AssetResolver* assets,
                               PreparedCache& cache) {
+  SetFloatEnvironment();
   BuiltFrame frame;
   Reader read;
   frame.width = from.output().width();
@@ -249,6 +251,7 @@ Result<BuiltFrame> BuildFrame(const v1::FrameScene& from, const AssetResolver* a
 Result<std::shared_ptr<const PreparedFractal>> PrepareObject(const BuiltFrame& frame,
                                                              const BuiltObject& object,
                                                              double coarser) {
+  SetFloatEnvironment();
   FractalSettings settings = object.settings;
   settings.fineness.epsilon *= coarser;
   settings.fineness.pixels *= coarser;

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "engine/base/clamp.h"
+#include "engine/base/fpenv.h"
 #include "engine/base/parallel.h"
 #include "engine/render/film.h"
 #include "engine/render/frame_setup.h"
@@ -232,6 +233,7 @@ class RegionRenderer {
 
 Result<RenderedFrame> RenderRegion(const BuiltFrame& frame, const TileRect& region,
                                    const RenderOptions& options) {
+  SetFloatEnvironment();
   if (options.tile_size < 0 || options.tile_size % 16 != 0 || options.tile_size > 4096) {
     return Invalid("the tile size must be a multiple of 16, at most 4096");
   }

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "engine/base/fpenv.h"
 #include "engine/formats/read_bytes.h"
 #include "engine/scene/defaults.h"
 #include "engine/scene/limits.h"
@@ -73,6 +74,7 @@ LoadResult Complete(v1::Scene scene, const AssetReader& assets, std::span<const 
 
 LoadResult LoadSceneText(const std::string& text, const std::string& name,
                          const AssetReader& assets, std::span<const Setting> settings) {
+  SetFloatEnvironment();
   SceneSource source;
   source.name = name;
   v1::Scene scene;
@@ -83,6 +85,7 @@ LoadResult LoadSceneText(const std::string& text, const std::string& name,
 
 LoadResult LoadSceneBinary(const std::string& bytes, const std::string& name,
                            const AssetReader& assets) {
+  SetFloatEnvironment();
   SceneSource source;
   source.name = name;
   v1::Scene scene;

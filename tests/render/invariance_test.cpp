@@ -1,12 +1,16 @@
 // One picture for every way of making it (D3, D4).
 #include <algorithm>
 #include <atomic>
+#include <cfenv>
+#include <optional>
 #include <thread>
 
+#include "engine/animation/inbetween.h"
 #include "engine/base/simd.h"
 #include "engine/geometry/primitives.h"
 #include "engine/render/build.h"
 #include "engine/render/tiles.h"
+#include "engine/scene/load.h"
 #include "tests/render/scenes.h"
 
 namespace fjord {
@@ -181,6 +185,38 @@ TEST(InvarianceTest, MemoryFollowsTheTileNotTheTriangles) {
   const double coarse = peak(.016), fine = peak(.004);
   EXPECT_LT(fine, 1.1 * coarse);
   EXPECT_LT(fine, 40e6);
+}
+
+// Whatever a thread's last guest did, the engine rounds to nearest.
+TEST(InvarianceTest, D1_EveryEntrySetsTheFloatEnvironment) {
+  const auto check = [](const char* entry, const auto& call) {
+    std::fesetround(FE_UPWARD);
+    call();
+    EXPECT_EQ(std::fegetround(), FE_TONEAREST) << entry;
+    std::fesetround(FE_TONEAREST);
+  };
+  LoadedScene loaded;
+  std::string bytes;
+  check("LoadSceneText", [&] {
+    LoadResult scene =
+        LoadSceneText("objects { name: \"a\" shape { primitive {} } }", "a", nullptr);
+    ASSERT_TRUE(scene.ok()) << scene.errors[0].ToString();
+    loaded = std::move(scene.loaded);
+    bytes = SerializeScene(loaded.scene);
+  });
+  check("LoadSceneBinary", [&] { EXPECT_TRUE(LoadSceneBinary(bytes, "a", nullptr).ok()); });
+  check("LoadSceneFile",
+        [] { EXPECT_TRUE(LoadSceneFile(FJORD_SOURCE_DIR "/tests/gate/solids.scene").ok()); });
+  std::shared_ptr<const Animation> animation;
+  check("Make", [&] { animation = *Animation::Make(std::move(loaded)); });
+  check("Inbetween", [&] { EXPECT_TRUE(animation->Inbetween(1, nullptr).ok()); });
+  const v1::FrameScene frame = Mixed();
+  std::optional<BuiltFrame> built;
+  check("BuildFrame", [&] { built = *BuildFrame(frame, nullptr); });
+  check("PrepareObject", [&] { EXPECT_TRUE(PrepareObject(*built, built->objects[0], 8).ok()); });
+  check("RenderRegion", [&] {
+    EXPECT_TRUE(RenderRegion(*built, {0, 0, 16, 16}, {.threads = 1}).ok());
+  });
 }
 
 TEST(InvarianceTest, CancelEndsEarly) {
