@@ -158,7 +158,8 @@ TEST(PreparedCacheTest, D4_AKeptObjectDrawsWhatANewOneDraws) {
   PreparedCache kept(1 << 24), none(0);
   const v1::FrameScene scene = Island();
   ASSERT_TRUE(BuildFrame(scene, nullptr, kept).ok());
-  const Result<BuiltFrame> again = BuildFrame(scene, nullptr, kept), anew = BuildFrame(scene, nullptr, none);
+  const Result<BuiltFrame> again = BuildFrame(scene, nullptr, kept),
+                           anew = BuildFrame(scene, nullptr, none);
   ASSERT_TRUE(again.ok() && anew.ok());
   EXPECT_EQ(kept.stats().found, 1u);
   EXPECT_EQ(none.stats().objects, 0u);
