@@ -11,12 +11,15 @@ import os
 import pathlib
 import platform
 import re
+import resource
 import signal
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
+
+import paired
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = pathlib.Path(os.environ.get("BUILD", ROOT / "build" / "release"))
@@ -106,6 +109,30 @@ def peak_memory(pixels):
         return round(usage.ru_maxrss / 1024, 1)
 
 
+def cpu_of_tree(root):
+    """User and system time of a process, of those below it and of those that they have waited for."""
+    parents, times = {}, {}
+    for entry in pathlib.Path("/proc").iterdir():
+        if not entry.name.isdigit():
+            continue
+        try:
+            fields = (entry / "stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()
+        except OSError:
+            continue  # gone meanwhile
+        parents[int(entry.name)] = int(fields[1])
+        times[int(entry.name)] = sum(map(int, fields[11:15]))
+    total, below = 0, {root}
+    while below:
+        total += sum(times.get(process, 0) for process in below)
+        below = {process for process, parent in parents.items() if parent in below}
+    return total / os.sysconf("SC_CLK_TCK")
+
+
+def cpu_of_children():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
 class Farm:
     """`fjord farm` with workers of one thread each, and the log it leaves."""
 
@@ -133,57 +160,83 @@ class Farm:
         return self.log.read()
 
 
-def farm_overhead(frames, size):
+def direct_round(bounds, settings):
+    """Wall seconds, the mean of two processes that share the frames, and CPU seconds of both."""
+    with tempfile.TemporaryDirectory() as folder:
+        cpu, start, busy = cpu_of_children(), time.monotonic(), []
+        halves = [subprocess.Popen(
+            [FJORD, "render", DEMO, "-o", f"{folder}/{low}", "--threads", "1", "--frames",
+             f"{low}-{high}", *settings], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            for low, high in bounds]
+        for child in halves:
+            if child.wait() != 0:
+                sys.exit("bench: a direct render failed")
+            busy.append(time.monotonic() - start)
+        # Frames of the two halves differ a little in cost: what counts is the work, not the later.
+        return sum(busy) / len(busy), cpu_of_children() - cpu
+
+
+def farm_round(first, last, settings):
+    """Wall and CPU seconds from submit to the end of the job, and what the journal did."""
+    with tempfile.TemporaryDirectory() as folder:
+        farm = Farm(folder, 2)
+        while farm.workers() < 2:
+            time.sleep(.05)
+        cpu = cpu_of_tree(farm.process.pid) + cpu_of_children()
+        start = time.monotonic()
+        job = json.loads(farm.fjord("submit", DEMO, "--frames", f"{first}-{last}", *settings, "--wait",
+                                    "--json"))
+        wall = time.monotonic() - start
+        cpu = cpu_of_tree(farm.process.pid) + cpu_of_children() - cpu
+        if job["job"]["state"] != "done":
+            sys.exit("bench: the farm's job did not end well")
+        log = farm.stop()
+    found = re.search(r"journal: (\d+) syncs, (\d+) records, (\d+) bytes, largest batch (\d+)", log)
+    journal = {}
+    if found:
+        syncs, records, size_bytes, largest = map(int, found.groups())
+        journal = {"syncs": syncs, "records": records, "bytes": size_bytes, "largest_batch": largest,
+                   "records_per_sync": round(records / max(1, syncs), 2),
+                   "syncs_per_s": round(syncs / wall, 2)}
+    return wall, cpu, journal
+
+
+def farm_overhead(frames, size, rounds=5):
     """Two workers on two cores against the same frames rendered directly by two processes.
 
     Both sides have two processes of one thread; the direct ones write frames and manifest as `render`
-    does. Rounds alternate, so that a slow spell hits both.
+    does. Every round has one of each, one straight after the other, and gives one overhead; the
+    report holds their median.
     """
     settings = ["--size", size]
-    direct, farmed, journal = [], [], {}
-    half = frames // 2
-    first = 97 - frames
-    for number in range(3):
-        with tempfile.TemporaryDirectory() as folder:
-            start = time.monotonic()
-            halves = [subprocess.Popen(
-                [FJORD, "render", DEMO, "-o", f"{folder}/{low}", "--threads", "1", "--frames",
-                 f"{low}-{high}", *settings], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-                for low, high in ((first, first + half - 1), (first + half, 96))]
-            busy = []
-            for child in halves:
-                if child.wait() != 0:
-                    sys.exit("bench: a direct render failed")
-                busy.append(time.monotonic() - start)
-            # Frames of the two halves differ a little in cost: what counts is the work, not the later.
-            direct.append(sum(busy) / len(busy))
-        with tempfile.TemporaryDirectory() as folder:
-            farm = Farm(folder, 2)
-            while farm.workers() < 2:
-                time.sleep(.05)
-            start = time.monotonic()
-            job = json.loads(farm.fjord("submit", DEMO, "--frames", f"{first}-96", *settings, "--wait",
-                                        "--json"))
-            farmed.append(time.monotonic() - start)
-            if job["job"]["state"] != "done":
-                sys.exit("bench: the farm's job did not end well")
-            log = farm.stop()
-        found = re.search(r"journal: (\d+) syncs, (\d+) records, (\d+) bytes, largest batch (\d+)", log)
-        if found:
-            syncs, records, size_bytes, largest = map(int, found.groups())
-            journal = {"syncs": syncs, "records": records, "bytes": size_bytes,
-                       "largest_batch": largest, "records_per_sync": round(records / max(1, syncs), 2),
-                       "syncs_per_s": round(syncs / farmed[-1], 2)}
-        say(f"  round {number + 1}: direct {direct[-1]:.2f} s, farm {farmed[-1]:.2f} s")
-    best_direct, best_farm = statistics.median(direct), statistics.median(farmed)
+    first, half = 97 - frames, frames // 2
+    pairs, journal = [], {}
+    for number in range(rounds):
+        direct = direct_round(((first, first + half - 1), (first + half, 96)), settings)
+        wall, cpu, journal = farm_round(first, 96, settings)
+        pairs.append((direct[0], wall, direct[1], cpu))
+        say(f"  round {number + 1}: direct {direct[0]:.2f} s, {direct[1]:.2f} s CPU; "
+            f"farm {wall:.2f} s, {cpu:.2f} s CPU")
+    wall_shares = [farm / direct - 1 for direct, farm, _, _ in pairs]
+    cpu_shares = [farm / direct - 1 for _, _, direct, farm in pairs]
     return {
-        "frames": frames, "size": size, "workers": 2,
-        "direct_s": round(best_direct, 3), "farm_s": round(best_farm, 3),
-        "frame_s": round(best_direct * 2 / frames, 4),
-        "overhead_ms_per_frame": round((best_farm - best_direct) * 2 / frames * 1000, 2),
-        "overhead_share": round(best_farm / best_direct - 1, 4),
+        "frames": frames, "size": size, "workers": 2, "rounds": rounds,
+        "frame_cpu_s": round(statistics.median(pair[2] for pair in pairs) / frames, 4),
+        "overhead_cpu_share": round(statistics.median(cpu_shares), 4),
+        "overhead_cpu_shares": [round(share, 4) for share in cpu_shares],
+        "overhead_wall_share": round(statistics.median(wall_shares), 4),
+        "overhead_wall_shares": [round(share, 4) for share in wall_shares],
         "journal": journal,
     }
+
+
+def show_pairs(report):
+    print(f"{'':44} {'':16} {'before':>14} {'after':>14}")
+    for row, values in report["paired"].items():
+        for key, (before, after) in values.items():
+            ratio = f"{before / after:8.2f} times" if before and after else ""
+            print(f"{row:44} {key:16} {before if before is not None else '-':>14} "
+                  f"{after if after is not None else '-':>14} {ratio}")
 
 
 def show(report):
@@ -199,7 +252,18 @@ def main():
     parser = argparse.ArgumentParser(prog="./dev bench", description=__doc__.splitlines()[0])
     parser.add_argument("--json", action="store_true", help="one JSON document on standard output")
     parser.add_argument("--quick", action="store_true", help="the farm and the demo only")
+    parser.add_argument("--baseline", metavar="FOLDER", help="compare with the programs in FOLDER "
+                        "(a build folder, or copies side by side), in turn, and nothing else")
+    parser.add_argument("--rounds", type=int, default=5, help="of --baseline (default 5)")
     options = parser.parse_args()
+    if options.baseline:
+        report = {"machine": machine(),
+                  "paired": paired.compare(options.baseline, BUILD, DEMO, options.rounds, say)}
+        if options.json:
+            print(json.dumps(report, indent=1))
+        else:
+            show_pairs(report)
+        return
     report = {"machine": machine(), "fractal": {}, "render": {}}
     if not options.quick:
         for name in ("fractal", "render"):

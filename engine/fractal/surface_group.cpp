@@ -1,5 +1,7 @@
 #include "engine/fractal/surface_group.h"
 
+#include <cstddef>
+
 namespace fjord {
 
 void SurfaceGroup::Clear(bool colored, size_t most_vertices) {
@@ -14,27 +16,36 @@ void SurfaceGroup::AddSites(const std::array<EdgeSite, 4>& sites) {
 void SurfaceGroup::Begin() {
   patch_.sites = sites_.data();
   pieces_.clear();
+  whole_.clear();
   for (uint32_t side = 0; side < patch_.edge_count; ++side) {
+    whole_.push_back(side);
     pieces_.push_back({side, side, kNone, kNone});
   }
-  last_pieces_ = 0;
   along_.assign(patch_.edge_count, 0);
 }
 
 void SurfaceGroup::Follow() {
-  const size_t end = pieces_.size();
-  for (size_t i = last_pieces_; i < end; ++i) {
-    const uint32_t slot = patch_.edge_slot[pieces_[i].edge];
+  size_t kept = 0;
+  const size_t end = whole_.size();
+  for (size_t i = 0; i < end; ++i) {
+    const uint32_t number = whole_[i];
+    const uint32_t slot = patch_.edge_slot[pieces_[number].edge];
     if (slot == Patch::kShort) continue;
-    const uint32_t side = pieces_[i].side;
+    if (slot >= patch_.long_count) {
+      whole_[kept++] = number;
+      continue;
+    }
+    const uint32_t side = pieces_[number].side;
     ++along_[side];
-    pieces_[i].middle = static_cast<uint32_t>(patch_.midpoints) + slot;
-    pieces_[i].halves = static_cast<uint32_t>(pieces_.size());
+    pieces_[number].middle = static_cast<uint32_t>(patch_.midpoints) + slot;
+    pieces_[number].halves = static_cast<uint32_t>(pieces_.size());
     for (const size_t half : patch_.halves) {
+      whole_.push_back(static_cast<uint32_t>(pieces_.size()));
       pieces_.push_back({static_cast<uint32_t>(half) + slot, side, kNone, kNone});
     }
   }
-  last_pieces_ = end;
+  whole_.erase(whole_.begin() + static_cast<std::ptrdiff_t>(kept),
+               whole_.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
 bool SurfaceGroup::Expand(const SurfaceRules& rules, uint32_t level) {

@@ -61,7 +61,7 @@ class SurfaceGroup {
   Patch patch_;
   std::vector<EdgeSite> sites_;
   std::vector<Piece> pieces_;
-  size_t last_pieces_ = 0;  // pieces from here on may be split by the next step
+  std::vector<uint32_t> whole_;  // pieces that a later step may split
   std::vector<uint32_t> along_;
   std::vector<uint64_t> upper_;
   std::vector<uint8_t> level_;

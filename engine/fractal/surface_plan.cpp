@@ -127,7 +127,7 @@ void SurfacePlan::Cut(const Part& part, const PatchRoot& root, const EdgeSite* s
     point[k] = part.corner[k];
     side[k] = part.side[k];
     const uint32_t slot = cut_.edge_slot[k];
-    if (slot == Patch::kShort) continue;
+    if (slot >= cut_.long_count) continue;
     const size_t made = cut_.midpoints + slot;
     const uint32_t number = part.side[k].border;
     if (borders[number].middle == kNone) {

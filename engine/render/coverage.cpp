@@ -114,7 +114,7 @@ constexpr bool kBranch = kLanes32 < 16;
 class Coverer {
  public:
   Coverer(const TileRect& tile, std::span<const SamplePlace> places, CoverageList* out)
-      : tile_(tile), places_(places), out_(out) {
+      : places_(places), out_(out) {
     const I32 d;
     tile_left_ = hn::Set(d, tile.x * kFixedOne);
     tile_top_ = hn::Set(d, tile.y * kFixedOne);
@@ -140,49 +140,67 @@ class Coverer {
     const VI second = hn::IfThenElse(turned, corner[2], corner[1]);
     const VI third = hn::IfThenElse(turned, corner[1], corner[2]);
     const LaneEdge edge[3] = {{corner[0], second}, {second, third}, {third, corner[0]}};
-    const VI width = t.right - t.left, height = t.bottom - t.top;
-    const VI within = hn::Set(d, kFixedOne - 1);
+    const VI box_corner = Pack(t.left, t.top);
+    const VI size = Pack(t.right - t.left, t.bottom - t.top);
+    const bool inside = hn::AllTrue(d, hn::Or(hn::Not(active), Inside(t)));
     const auto samples = static_cast<int32_t>(places_.size());
     for (int32_t s = 0; s < samples; ++s) {
       // The first place of the sample that is not left of, or above, the box.
-      const VI first_x = hn::And(hn::Set(d, places_[s].x) - t.left, within);
-      const VI first_y = hn::And(hn::Set(d, places_[s].y) - t.top, within);
+      const VI first = hn::And(Minus(hn::Set(d, Packed(places_[s].x, places_[s].y)), box_corner),
+                               hn::Set(d, Packed(kFixedOne - 1, kFixedOne - 1)));
       for (int32_t j = 0; j < down; ++j) {
         for (int32_t i = 0; i < across; ++i) {
-          const VI x = first_x + hn::Set(d, i * kFixedOne);
-          const VI y = first_y + hn::Set(d, j * kFixedOne);
-          const MI in_box = hn::And(active, hn::And(AtLeast(width, x), AtLeast(height, y)));
-          if (kBranch && hn::AllFalse(d, in_box)) continue;
-          const VI place = hn::Or(x, hn::ShiftLeft<16>(y));
-          const VI all = hn::Or(hn::Or(edge[0].At(place), edge[1].At(place)), edge[2].At(place));
-          const MI covered = hn::And(in_box, hn::Gt(all, hn::Set(d, -1)));
+          // No half runs over: this adds to both.
+          const VI place = first + hn::Set(d, Packed(i * kFixedOne, j * kFixedOne));
+          // Signs of both halves: right of, below the box.
+          const VI left_over = Minus(size, place);
+          const VI outside = hn::Or(left_over, hn::ShiftLeft<16>(left_over));
+          if (kBranch && hn::AllTrue(d, hn::Or(hn::Not(active), hn::Lt(outside, hn::Zero(d))))) {
+            continue;
+          }
+          const VI all = hn::Or(hn::Or(edge[0].At(place), edge[1].At(place)),
+                                hn::Or(edge[2].At(place), outside));
+          MI covered = hn::And(active, hn::Gt(all, hn::Set(d, -1)));
           if (kBranch && hn::AllFalse(d, covered)) continue;
-          Append(covered, numbers, t.left + x, t.top + y, s);
+          if (!inside) covered = hn::And(covered, InTile(t, place));
+          Append(covered, numbers, CodeOf(s, i, j));
         }
       }
     }
   }
 
  private:
-  HWY_INLINE void Append(MI covered, V32 numbers, VI x, VI y, int32_t sample) {
-    const I32 d;
-    const D32 du;
-    covered = hn::And(covered, hn::And(hn::And(AtLeast(x, tile_left_), hn::Lt(x, tile_right_)),
-                                       hn::And(AtLeast(y, tile_top_), hn::Lt(y, tile_bottom_))));
-    const VI column = hn::ShiftRight<8>(x - tile_left_), row = hn::ShiftRight<8>(y - tile_top_);
-    const VI pixel = row * hn::Set(d, tile_.width) + column;
-    const VI index = pixel * hn::Set(d, static_cast<int32_t>(places_.size())) + hn::Set(d, sample);
-    const M32 mask = hn::RebindMask(du, covered);
-    const Compactor front(mask);
-    const size_t at = out_->hits;
-    hn::StoreU(front(numbers), du, out_->triangle.data() + at);
-    hn::StoreU(front(Unsigned(index)), du, out_->sample.data() + at);
-    hn::StoreU(Signed(front(Unsigned(x))), d, out_->x.data() + at);
-    hn::StoreU(Signed(front(Unsigned(y))), d, out_->y.data() + at);
-    out_->hits = at + hn::CountTrue(du, mask);
+  static int32_t Packed(int32_t x, int32_t y) { return y << 16 | x; }
+
+  uint32_t CodeOf(int32_t sample, int32_t column, int32_t row) const {
+    const SamplePlace& place = places_[sample];
+    return static_cast<uint32_t>(sample) << HitCode::kSample |
+           static_cast<uint32_t>(place.x) << HitCode::kX |
+           static_cast<uint32_t>(place.y) << HitCode::kY |
+           static_cast<uint32_t>(column) << HitCode::kColumn |
+           static_cast<uint32_t>(row) << HitCode::kRow;
   }
 
-  TileRect tile_;
+  // Lanes whose boxes lie in the tile, so that all of their samples do.
+  HWY_INLINE MI Inside(const Lanes& t) const {
+    return hn::And(hn::And(AtLeast(t.left, tile_left_), hn::Lt(t.right, tile_right_)),
+                   hn::And(AtLeast(t.top, tile_top_), hn::Lt(t.bottom, tile_bottom_)));
+  }
+  HWY_INLINE MI InTile(const Lanes& t, VI place) const {
+    const VI x = t.left + hn::And(place, hn::Set(I32(), 0xffff));
+    const VI y = t.top + hn::ShiftRight<16>(place);
+    return hn::And(hn::And(AtLeast(x, tile_left_), hn::Lt(x, tile_right_)),
+                   hn::And(AtLeast(y, tile_top_), hn::Lt(y, tile_bottom_)));
+  }
+
+  HWY_INLINE void Append(MI covered, V32 numbers, uint32_t code) {
+    const D32 du;
+    const M32 mask = hn::RebindMask(du, covered);
+    const V32 codes = Compactor(mask)(numbers);
+    hn::StoreU(hn::Or(codes, hn::Set(du, code)), du, out_->code.data() + out_->hits);
+    out_->hits += hn::CountTrue(du, mask);
+  }
+
   std::span<const SamplePlace> places_;
   CoverageList* out_;
   VI tile_left_, tile_top_, tile_right_, tile_bottom_;
@@ -258,10 +276,9 @@ void FindCoverage(std::span<const Triangle> triangles, const ProjectedBatch& bat
   FJORD_CHECK(triangles.size() <= kCoverageBlock, triangles.size());
   // A wide triangle has four places a sample to cover.
   const size_t most = kCoverageBlock * places.size() * 4 + kPadding;
+  Grow(&out->code, most);
   Grow(&out->triangle, most);
   Grow(&out->sample, most);
-  Grow(&out->x, most);
-  Grow(&out->y, most);
   Grow(&out->depth, most);
   Grow(&out->lead, most);
   Grow(&out->large, kCoverageBlock + kPadding);

@@ -32,11 +32,23 @@ struct ProjectedBatch {
 void ProjectVertices(const Projection& to, std::span<const StreamVertex> vertices,
                      ProjectedBatch* out);
 
-// What micro-triangles cover. Hit i: triangles[triangle] covers the sample at (x, y), which is
-// entry `sample` of the tile buffer, at `depth`; its corner `lead` leads.
+// How many triangles FindCoverage takes at a time.
+inline constexpr size_t kCoverageBlock = 256;
+
+// A sample that a micro-triangle of a block covers, in a word: the number of the triangle, then the
+// number of the sample in its pixel and its place there, then whether it lies in the first or
+// second column and row of such samples from the corner of the triangle's box on. Where that is
+// follows from the triangle, so the loop that looks for samples writes one word only.
+struct HitCode {
+  static constexpr uint32_t kTriangle = 0xff;
+  static constexpr int kSample = 8, kX = 12, kY = 20, kColumn = 28, kRow = 29;
+};
+
+// What micro-triangles cover. Hit i: triangles[triangle] covers entry `sample` of the tile buffer,
+// at `depth`; its corner `lead` leads.
 struct CoverageList {
+  std::vector<uint32_t> code;  // HitCode
   std::vector<uint32_t> triangle, sample, lead;
-  std::vector<int32_t> x, y;
   std::vector<double> depth;
   size_t hits = 0;
   std::vector<uint32_t> large;  // triangles in reach of the tile of two pixels or more
@@ -44,20 +56,17 @@ struct CoverageList {
   std::vector<uint32_t> wide;  // of one to two pixels; while covering
 
   size_t Bytes() const {
-    return triangle.capacity() * (5 * sizeof(uint32_t) + sizeof(double)) +
+    return triangle.capacity() * (4 * sizeof(uint32_t) + sizeof(double)) +
            (large.capacity() + wide.capacity()) * sizeof(uint32_t);
   }
 };
 
-// How many triangles FindCoverage takes at a time.
-inline constexpr size_t kCoverageBlock = 256;
-
-// Triangles of zero area, and those that cannot touch the tile, are dropped.
+// Finds hits, as codes. Triangles of zero area, and those that cannot touch the tile, are dropped.
 void FindCoverage(std::span<const Triangle> triangles, const ProjectedBatch& batch,
                   const TileRect& tile, std::span<const SamplePlace> places, CoverageList* out);
 
-// Fills depth and lead (triangle_setup.h's DepthPlane, bit for bit).
+// Fills in the rest of the hits (depths: triangle_setup.h's DepthPlane, bit for bit).
 void FindDepths(std::span<const Triangle> triangles, const ProjectedBatch& batch,
-                CoverageList* hits);
+                const TileRect& tile, std::span<const SamplePlace> places, CoverageList* hits);
 
 }  // namespace fjord

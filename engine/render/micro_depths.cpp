@@ -1,4 +1,4 @@
-// How near micro-triangles are at the samples they cover.
+// Where the samples are that micro-triangles cover, and how near the triangles are there.
 #include "engine/base/simd.h"
 #include "engine/render/coverage.h"
 
@@ -34,12 +34,14 @@ struct Led {
   HWY_ALIGN int32_t bx[kSize], by[kSize], cx[kSize], cy[kSize], dx[kSize], dy[kSize];
 
   // Hits at..; lanes from `count` on: those of triangle 0.
-  HWY_INLINE Led(const Triangle* triangles, const int32_t* xy, CoverageList& hits, size_t at,
-                 size_t count) {
+  HWY_INLINE Led(const Triangle* triangles, const int32_t* xy, const TileRect& tile,
+                 int32_t samples, CoverageList& hits, size_t at, size_t count) {
     const D32 du;
     const I32 d;
-    const V32 number =
-        hn::IfThenElseZero(hn::FirstN(du, count), hn::LoadU(du, hits.triangle.data() + at));
+    const V32 code =
+        hn::IfThenElseZero(hn::FirstN(du, count), hn::LoadU(du, hits.code.data() + at));
+    const V32 number = hn::And(code, hn::Set(du, HitCode::kTriangle));
+    hn::StoreU(number, du, hits.triangle.data() + at);
     const V32 place = number + number + number;
     V32 v[3], x[3], y[3];
     for (int k = 0; k < 3; ++k) {
@@ -74,18 +76,34 @@ struct Led {
     hn::Store(cornery[1] - cornery[0], d, by);
     hn::Store(cornerx[2] - cornerx[0], d, cx);
     hn::Store(cornery[2] - cornery[0], d, cy);
-    hn::Store(hn::LoadU(d, hits.x.data() + at) - cornerx[0], d, dx);
-    hn::Store(hn::LoadU(d, hits.y.data() + at) - cornery[0], d, dy);
+    // coverage.cpp's place of the sample.
+    const auto sample_at = [&](const V32* corner, V32 offset, V32 step) HWY_ATTR {
+      const VI low = hn::Min(hn::Min(Signed(corner[0]), Signed(corner[1])), Signed(corner[2]));
+      const VI within = hn::And(Signed(offset) - low, hn::Set(d, kFixedOne - 1));
+      return (low + within) + hn::ShiftLeft<8>(hn::And(Signed(step), hn::Set(d, 1)));
+    };
+    const V32 byte = hn::Set(du, 0xff);
+    const VI sx = sample_at(x, hn::And(hn::ShiftRight<HitCode::kX>(code), byte),
+                            hn::ShiftRight<HitCode::kColumn>(code));
+    const VI sy = sample_at(y, hn::And(hn::ShiftRight<HitCode::kY>(code), byte),
+                            hn::ShiftRight<HitCode::kRow>(code));
+    hn::Store(sx - cornerx[0], d, dx);
+    hn::Store(sy - cornery[0], d, dy);
+    const VI column = hn::ShiftRight<8>(sx) - hn::Set(d, tile.x);
+    const VI row = hn::ShiftRight<8>(sy) - hn::Set(d, tile.y);
+    const VI pixel = row * hn::Set(d, tile.width) + column;
+    const V32 sample = hn::And(hn::ShiftRight<HitCode::kSample>(code), hn::Set(du, 0xf));
+    hn::StoreU(Unsigned(pixel * hn::Set(d, samples)) + sample, du, hits.sample.data() + at);
   }
 };
 
 void Depths(const Triangle* triangles, const int32_t* xy, const double* depths,
-            CoverageList* hits) {
+            const TileRect& tile, int32_t samples, CoverageList* hits) {
   const DF d;
   const DN dn;
   constexpr size_t kLanes = hn::MaxLanes(DF());
   for (size_t at = 0; at < hits->hits; at += kLanes32) {
-    const Led led(triangles, xy, *hits, at, hits->hits - at);
+    const Led led(triangles, xy, tile, samples, *hits, at, hits->hits - at);
     for (size_t i = 0; i < kLanes32; i += kLanes) {
       VF corner[3];
       for (int k = 0; k < 3; ++k) corner[k] = Gather(depths, hn::Load(dn, led.vertex[k] + i));
@@ -117,8 +135,10 @@ HWY_EXPORT(Depths);
 }  // namespace
 
 void FindDepths(std::span<const Triangle> triangles, const ProjectedBatch& batch,
-                CoverageList* hits) {
-  HWY_DYNAMIC_DISPATCH(Depths)(triangles.data(), batch.xy.data(), batch.depth.data(), hits);
+                const TileRect& tile, std::span<const SamplePlace> places, CoverageList* hits) {
+  HWY_DYNAMIC_DISPATCH(Depths)
+  (triangles.data(), batch.xy.data(), batch.depth.data(), tile, static_cast<int32_t>(places.size()),
+   hits);
 }
 
 }  // namespace fjord

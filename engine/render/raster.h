@@ -10,6 +10,7 @@
 
 #include "engine/fractal/method.h"
 #include "engine/render/coverage.h"
+#include "engine/render/micro_records.h"
 #include "engine/render/tile_buffer.h"
 #include "engine/render/view.h"
 
@@ -48,7 +49,8 @@ class Raster {
  private:
   // Triangles first.. of the batch, at most kCoverageBlock.
   void DrawBlock(const StreamBatch& batch, size_t first, size_t count);
-  uint32_t AddHit(const StreamBatch& batch, const Triangle& triangle, uint32_t lead);
+  // Records of the block's winners.
+  void AddWinners(const StreamBatch& batch);
   void DrawWhole(const StreamBatch& batch, const Triangle& triangle);
   void DrawClipped(const StreamBatch& batch, const Triangle& triangle);
   void DrawStroke(const StreamBatch& batch, const std::array<uint32_t, 2>& segment);
@@ -65,6 +67,7 @@ class Raster {
   ProjectedBatch projected_;
   CoverageList coverage_;
   std::array<uint32_t, kCoverageBlock> hit_of_{};  // of the block's triangles
+  MicroWinners winners_;
 };
 
 }  // namespace fjord

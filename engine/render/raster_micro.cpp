@@ -5,39 +5,59 @@
 #include "engine/render/raster_source.h"
 
 namespace fjord {
+namespace {
 
-uint32_t Raster::AddHit(const StreamBatch& batch, const Triangle& triangle, uint32_t lead) {
-  constexpr size_t kNext[] = {0, 1, 2, 0, 1};
-  const uint32_t a = triangle[lead], b = triangle[kNext[lead + 1]], c = triangle[kNext[lead + 2]];
-  HitRecord record = MakeRecord(batch, a, b, c);
-  if (attributes_.any()) {
-    record.corners = tile_->AddCorners(
-        MakeCornerValues(to_, MakeCorner(batch, a), MakeCorner(batch, b), MakeCorner(batch, c)));
+uint64_t TieOf(const StreamBatch& batch, const Triangle& triangle) {
+  return batch.vertices[triangle[0]].id + batch.vertices[triangle[1]].id +
+         batch.vertices[triangle[2]].id;
+}
+
+}  // namespace
+
+void Raster::AddWinners(const StreamBatch& batch) {
+  winners_.Pad();
+  HitRecord* records = tile_->AddRecords(winners_.count);
+  MakeRecords(batch.vertices, winners_, object_, records);
+  if (!attributes_.any()) return;
+  for (size_t i = 0; i < winners_.count; ++i) {
+    const Triangle t = winners_.At(i);
+    records[i].corners = tile_->AddCorners(MakeCornerValues(
+        to_, MakeCorner(batch, t[0]), MakeCorner(batch, t[1]), MakeCorner(batch, t[2])));
   }
-  return tile_->AddRecord(record);
 }
 
 void Raster::DrawBlock(const StreamBatch& batch, size_t first, size_t count) {
   const std::span<const Triangle> triangles = batch.triangles.subspan(first, count);
   FindCoverage(triangles, projected_, tile_->rect(), tile_->places(), &coverage_);
-  FindDepths(triangles, projected_, &coverage_);
+  FindDepths(triangles, projected_, tile_->rect(), tile_->places(), &coverage_);
   std::fill_n(hit_of_.begin(), count, kNoHit);
+  winners_.count = 0;
+  const auto made = static_cast<uint32_t>(tile_->records());  // hits from here on: winners_
   double* depths = tile_->depth();
+  uint32_t* hits = tile_->hit();
   for (size_t i = 0; i < coverage_.hits; ++i) {
     const uint32_t sample = coverage_.sample[i];
     const double depth = coverage_.depth[i];
     if (!(depth >= depths[sample])) continue;
     const Triangle& triangle = triangles[coverage_.triangle[i]];
     if (depth == depths[sample]) {
-      uint64_t tie = 0;
-      for (const uint32_t v : triangle) tie += batch.vertices[v].id;
-      if (!tile_->WinsTie(sample, object_, tie)) continue;
+      const uint64_t tie = TieOf(batch, triangle);
+      const uint32_t there = hits[sample];
+      // A winner's record is not made yet.
+      const bool wins = there != kNoHit && there >= made
+                            ? tie < TieOf(batch, winners_.At(there - made))
+                            : tile_->WinsTie(sample, object_, tie);
+      if (!wins) continue;
     }
     uint32_t& hit = hit_of_[coverage_.triangle[i]];
-    if (hit == kNoHit) hit = AddHit(batch, triangle, coverage_.lead[i]);
+    if (hit == kNoHit) {
+      hit = made + static_cast<uint32_t>(winners_.count);
+      winners_.Add(triangle, coverage_.lead[i]);
+    }
     depths[sample] = depth;
-    tile_->hit()[sample] = hit;
+    hits[sample] = hit;
   }
+  AddWinners(batch);
   for (size_t i = 0; i < coverage_.larges; ++i) {
     const Triangle& triangle = triangles[coverage_.large[i]];
     bool clipped = false;

@@ -79,6 +79,12 @@ class TileBuffer {
     records_.push_back(record);
     return static_cast<uint32_t>(records_.size() - 1);
   }
+  // Room for `count` more, the first of which is number records().
+  HitRecord* AddRecords(size_t count) {
+    records_.resize(records_.size() + count);
+    return records_.data() + (records_.size() - count);
+  }
+  size_t records() const { return records_.size(); }
   uint32_t AddCorners(const CornerValues& corners) {
     corners_.push_back(corners);
     return static_cast<uint32_t>(corners_.size() - 1);
