@@ -1,9 +1,10 @@
 // A worker: joins a coordinator, takes leases, renders, delivers. Built by the fjord-worker
 // program, by `fjord farm` and by tests.
 //
-// Threads: one renders (the renderer may use more), one asks for work and stays one lease ahead,
-// one renews, one stops what is past its deadline, one delivers, so that a picture travels while
-// the next is made. Losing the worker at any moment loses nothing but its own work.
+// Threads: one renders (the renderer may use more); lease_loop.h asks for work and stays one lease
+// ahead; renewal.h renews, and stops what is past its deadline; delivery.h delivers. They talk to
+// the coordinator through session.h and share the leases of held.h. Losing the worker at any moment
+// loses nothing but its own work.
 #pragma once
 
 #include <functional>
