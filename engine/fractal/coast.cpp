@@ -7,6 +7,7 @@
 #include "engine/fractal/amount.h"
 #include "engine/fractal/coast_batch.h"
 #include "engine/fractal/coast_pieces.h"
+#include "engine/fractal/line_walk.h"
 #include "engine/fractal/registry.h"
 
 namespace fjord {
@@ -33,7 +34,13 @@ struct Node {
   CoastVertex o;
   Vec3 normal_s;
   Vec3 normal_e;
+
+  uint32_t level() const { return edge.level(); }
 };
+
+Node RootOf(const CoastPiece& piece) {
+  return {{piece.s.line, piece.e.line, piece.rest2, 0}, piece.o, piece.s.normal, piece.e.normal};
+}
 
 // What a cut makes: the displaced point, and the halves' new apex where its inside is sealed off.
 struct Cut {
@@ -94,6 +101,34 @@ Cut MakeCut(const LineRules& rules, const Node& node, const LineFrame& frame,
   }
   return cut;
 }
+
+// Cuts the pieces that grow from one border edge.
+template <typename Wants, typename TakeTriangle>
+struct CoastVisitor {
+  const LineRules& rules;
+  const LineFrame& frame;
+  StreamStats* stats;
+  const Wants& wants;
+  const TakeTriangle& take;
+
+  LineRules::Size Measure(const Node& n) const { return rules.Measure(n.edge); }
+  bool IsWanted(const Node& n) const {
+    return wants(n.edge.a.position, n.edge.b.position, n.o.line.position, rules.Reach(n.edge));
+  }
+  bool Take(const Node& n) const { return take(Start(n), End(n), n.o); }
+  bool Divide(const Node& n, const LineRules::Size& size, LineTree<Node>* tree) const {
+    const Cut cut = MakeCut(rules, n, frame, size);
+    if (cut.sealed) {
+      stats->triangles += 2;
+      if (!take(Start(n), cut.apex, n.o) || !take(cut.apex, End(n), n.o)) {
+        return false;
+      }
+    }
+    tree->push_back({rules.Second(n.edge, cut.p.line), cut.apex, cut.p.normal, n.normal_e});
+    tree->push_back({rules.First(n.edge, cut.p.line), cut.apex, n.normal_s, cut.p.normal});
+    return true;
+  }
+};
 
 class PreparedCoast : public PreparedFractal {
  public:
@@ -190,65 +225,26 @@ class PreparedCoast : public PreparedFractal {
     return piece.coast ? rules_.Reach({piece.s.line, piece.e.line, piece.rest2, 0}) : 0;
   }
 
-  // Depth-first, along the border. wants(triangle, reach): is anything of it wanted; asked of large
-  // ones only. take(a, b, c) returns false to stop; then so does Walk.
+  // wants(triangle, reach): is anything of it needed. take(a, b, c): false ends the walk; then so
+  // does Walk.
   template <typename Wants, typename Take>
   bool Walk(size_t root, StreamStats* stats, const Wants& wants, const Take& take) const {
     for (const CoastPiece& piece : mesh_.Pieces(root)) {
-      if (!wants(piece.s.line.position, piece.e.line.position, piece.o.line.position,
-                 Reach(piece))) {
-        ++stats->culled;
-        continue;
-      }
-      if (!piece.coast) {
-        ++stats->triangles;
-        if (!take(piece.s, piece.e, piece.o)) {
+      if (piece.coast) {
+        CoastVisitor<Wants, Take> visitor{rules_, piece.frame, stats, wants, take};
+        if (!WalkLine(RootOf(piece), visitor, stats)) {
           return false;
         }
         continue;
       }
-      if (!WalkPiece(piece, stats, wants, take)) {
+      if (!wants(piece.s.line.position, piece.e.line.position, piece.o.line.position, 0)) {
+        ++stats->culled;
+        continue;
+      }
+      ++stats->triangles;
+      if (!take(piece.s, piece.e, piece.o)) {
         return false;
       }
-    }
-    return true;
-  }
-
-  template <typename Wants, typename Take>
-  bool WalkPiece(const CoastPiece& piece, StreamStats* stats, const Wants& wants,
-                 const Take& take) const {
-    std::vector<Node> stack{
-        {{piece.s.line, piece.e.line, piece.rest2, 0}, piece.o, piece.s.normal, piece.e.normal}};
-    while (!stack.empty()) {
-      const Node node = stack.back();
-      stack.pop_back();
-      const LineRules::Size size = rules_.Measure(node.edge);
-      const uint32_t level = node.edge.level();
-      if (size.IsLarge() && level > 0 &&
-          !wants(node.edge.a.position, node.edge.b.position, node.o.line.position,
-                 rules_.Reach(node.edge))) {
-        ++stats->culled;
-        continue;
-      }
-      if (!size.Splits()) {
-        ++stats->triangles;
-        stats->depth = level > stats->depth ? level : stats->depth;
-        if (!take(Start(node), End(node), node.o)) {
-          return false;
-        }
-        continue;
-      }
-      ++stats->midpoints;
-      const Cut cut = MakeCut(rules_, node, piece.frame, size);
-      if (cut.sealed) {
-        stats->triangles += 2;
-        if (!take(Start(node), cut.apex, node.o) || !take(cut.apex, End(node), node.o)) {
-          return false;
-        }
-      }
-      stack.push_back(
-          {rules_.Second(node.edge, cut.p.line), cut.apex, cut.p.normal, node.normal_e});
-      stack.push_back({rules_.First(node.edge, cut.p.line), cut.apex, node.normal_s, cut.p.normal});
     }
     return true;
   }

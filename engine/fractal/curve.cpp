@@ -5,6 +5,7 @@
 #include "engine/fractal/curve_additions.h"
 #include "engine/fractal/curve_chain.h"
 #include "engine/fractal/curve_rules.h"
+#include "engine/fractal/line_walk.h"
 #include "engine/fractal/registry.h"
 
 namespace fjord {
@@ -53,6 +54,31 @@ class SegmentBatch {
   std::vector<StreamVertex> vertices_;
   std::vector<std::array<uint32_t, 2>> segments_;
   std::vector<Rgb> colors_;
+};
+
+// Halves the segments of one input edge.
+template <typename Wants, typename TakeLeaf>
+struct CurveVisitor {
+  const LineRules& rules;
+  const LineFrame& frame;
+  const std::optional<CurveAdditions>& additions;
+  std::optional<CurveAdditions::Line> line;  // with additions
+  const Wants& wants;
+  const TakeLeaf& take;
+
+  LineRules::Size Measure(const LineSegment& s) const { return rules.Measure(s); }
+  bool IsWanted(const LineSegment& s) const { return wants(s); }
+  bool Take(const LineSegment& s) const { return take(s); }
+  bool Divide(const LineSegment& s, const LineRules::Size& size,
+              LineTree<LineSegment>* tree) const {
+    LineVertex middle = rules.Halve(s, frame, size).vertex;
+    if (line) {
+      middle.position = additions->Place(*line, 2 * s.place + 1, s.level() + 1);
+    }
+    tree->push_back(rules.Second(s, middle));
+    tree->push_back(rules.First(s, middle));
+    return true;
+  }
 };
 
 class PreparedCurve : public PreparedFractal {
@@ -135,42 +161,15 @@ class PreparedCurve : public PreparedFractal {
     return additions_ ? 2 * additions_->Reach(edge) : rules_.Reach(segment);
   }
 
-  // Depth-first, along the chain. wants(segment): is it to be made; asked of large ones only.
-  // take(leaf) returns false to stop; then so does Walk.
+  // wants(segment): is anything of it needed. take(leaf): false ends the walk; then so does Walk.
   template <typename Wants, typename Take>
   bool Walk(size_t root, StreamStats* stats, const Wants& wants, const Take& take) const {
     const LineSegment edge = chain_.Edge(root);
-    const LineFrame& frame = chain_.frames[root];
-    std::optional<CurveAdditions::Line> line;
+    CurveVisitor<Wants, Take> visitor{rules_, chain_.frames[root], additions_, {}, wants, take};
     if (additions_) {
-      line = additions_->Start(edge, frame);
+      visitor.line = additions_->Start(edge, visitor.frame);
     }
-    std::vector<LineSegment> stack{edge};
-    while (!stack.empty()) {
-      const LineSegment s = stack.back();
-      stack.pop_back();
-      const LineRules::Size size = rules_.Measure(s);
-      if ((s.level() == 0 || size.IsLarge()) && !wants(s)) {
-        ++stats->culled;
-        continue;
-      }
-      if (!size.Splits()) {
-        ++stats->triangles;
-        stats->depth = s.level() > stats->depth ? s.level() : stats->depth;
-        if (!take(s)) {
-          return false;
-        }
-        continue;
-      }
-      ++stats->midpoints;
-      LineVertex middle = rules_.Halve(s, frame, size).vertex;
-      if (line) {
-        middle.position = additions_->Place(*line, 2 * s.place + 1, s.level() + 1);
-      }
-      stack.push_back(rules_.Second(s, middle));
-      stack.push_back(rules_.First(s, middle));
-    }
-    return true;
+    return WalkLine(edge, visitor, stats);
   }
 
   CurveChain chain_;
