@@ -8,9 +8,8 @@
 #include "engine/animation/inbetween.h"
 #include "engine/base/simd.h"
 #include "engine/geometry/primitives.h"
-#include "engine/render/build.h"
-#include "engine/render/tiles.h"
 #include "engine/scene/load.h"
+#include "tests/render/plain_oracle.h"
 #include "tests/render/scenes.h"
 
 namespace fjord {
@@ -109,49 +108,14 @@ TEST(InvarianceTest, ATileIsThatPartOfTheFrame) {
   EXPECT_FALSE(RenderTile(scene, 0, 0, 0, 1, {}).ok());
 }
 
-// Streams everything, whatever the sink wants.
-class Unculled final : public PreparedFractal {
- public:
-  explicit Unculled(std::shared_ptr<const PreparedFractal> inner) : inner_(std::move(inner)) {}
-  size_t RootCount() const override { return inner_->RootCount(); }
-  Ball Bound(size_t) const override { return {Vec3(0), 1e6}; }
-  StreamStats Stream(size_t root, StreamSink& sink, size_t patch) const override {
-    class All final : public StreamSink {
-     public:
-      explicit All(StreamSink* sink) : sink_(sink) {}
-      bool Wants(const Vec3&, const Vec3&, const Vec3&, const StreamReach&) override {
-        return true;
-      }
-      void Take(const StreamBatch& batch) override { sink_->Take(batch); }
-
-     private:
-      StreamSink* sink_;
-    };
-    All all(&sink);
-    return inner_->Stream(root, all, patch);
-  }
-  Result<WeldedShape> Weld(const WeldLimits& limits) const override { return inner_->Weld(limits); }
-  size_t Bytes() const override { return inner_->Bytes(); }
-
- private:
-  std::shared_ptr<const PreparedFractal> inner_;
-};
-
 TEST(InvarianceTest, S7_CullingLosesNothing) {
   const Result<BuiltFrame> culled = BuildFrame(Mixed());
   ASSERT_TRUE(culled.ok());
-  BuiltFrame unculled = *culled;
-  for (BuiltObject& object : unculled.objects) {
-    object.prepared = std::make_shared<Unculled>(object.prepared);
-  }
-  const TileRect whole{0, 0, 150, 101};
-  const Result<RenderedFrame> a =
-      RenderRegion(*culled, whole, {.threads = 1, .tile_size = 32, .patch_size = 64});
-  const Result<RenderedFrame> b = RenderRegion(unculled, whole, {.threads = 1, .tile_size = 32});
-  ASSERT_TRUE(a.ok() && b.ok());
-  EXPECT_EQ(PixelDigest(a->picture), PixelDigest(b->picture));
-  EXPECT_LT(a->stats.triangles, b->stats.triangles * 3 / 4);
-  EXPECT_GT(a->stats.culled, 0u);
+  const RenderedFrame a = DrawBuilt(*culled, {.threads = 1, .tile_size = 32, .patch_size = 64});
+  const RenderedFrame b = DrawBuilt(Unhidden(*culled), {.threads = 1, .tile_size = 32});
+  EXPECT_EQ(PixelDigest(a.picture), PixelDigest(b.picture));
+  EXPECT_LT(a.stats.triangles, b.stats.triangles * 3 / 4);
+  EXPECT_GT(a.stats.culled, 0u);
 }
 
 TEST(InvarianceTest, OneTileAloneCostsLittleMoreThanItsShare) {
