@@ -1,7 +1,12 @@
 // One picture for every way of making it (D3, D4).
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cfenv>
+#include <cstdio>
 #include <optional>
 #include <thread>
 
@@ -118,6 +123,8 @@ TEST(InvarianceTest, S7_CullingLosesNothing) {
   EXPECT_GT(a.stats.culled, 0u);
 }
 
+constexpr double kMostAlone = 1.5;
+
 TEST(InvarianceTest, OneTileAloneCostsLittleMoreThanItsShare) {
   v1::FrameScene scene = Mixed();
   scene.mutable_output()->set_width(512);
@@ -135,20 +142,40 @@ TEST(InvarianceTest, OneTileAloneCostsLittleMoreThanItsShare) {
   }
   const auto whole = RenderRegion(*built, {0, 0, 512, 320}, {.threads = 1});
   ASSERT_TRUE(whole.ok());
-  EXPECT_LT(static_cast<double>(alone), 2.5 * static_cast<double>(whole->stats.triangles));
+  // docs/performance.md has 1.08 for the demo; here roots are few and tiles cut more of them
+  const double share = static_cast<double>(alone) / static_cast<double>(whole->stats.triangles);
+  std::printf("tiles alone: %.3f times the frame at once\n", share);
+  EXPECT_LT(share, kMostAlone);
+  EXPECT_GT(share, .9) << "tiles alone must make all that the frame makes";
 }
 
-TEST(InvarianceTest, MemoryFollowsTheTileNotTheTriangles) {
-  const auto peak = [](double epsilon) {
+// Peak of a process of its own that renders, as the system counts it; 0 where it failed. `epsilon`
+// 0: it renders nothing.
+double PeakOfRendering(double epsilon) {
+  const pid_t child = fork();
+  if (child == 0) {
+    if (epsilon == 0) _exit(0);
     v1::FrameScene scene = Mixed();
     scene.mutable_object(0)->mutable_fractal()->mutable_fineness()->set_epsilon(epsilon);
     const auto rendered = RenderFrame(scene, {.threads = 1, .tile_size = 64});
-    EXPECT_TRUE(rendered.ok());
-    return static_cast<double>(rendered->stats.peak_bytes);
-  };
-  const double coarse = peak(.016), fine = peak(.004);
-  EXPECT_LT(fine, 1.1 * coarse);
-  EXPECT_LT(fine, 40e6);
+    const bool good = rendered.ok() && rendered->stats.triangles > 1 / (epsilon * epsilon);
+    _exit(good ? 0 : 1);
+  }
+  int status = 1;
+  rusage used{};
+  if (child < 0 || wait4(child, &status, 0, &used) != child || status != 0) return 0;
+  return static_cast<double>(used.ru_maxrss) * 1024;
+}
+
+TEST(InvarianceTest, MemoryFollowsTheTileNotTheTriangles) {
+  const double nothing = PeakOfRendering(0);
+  const double coarse = PeakOfRendering(.016), fine = PeakOfRendering(.004);
+  ASSERT_GT(nothing, 0);
+  ASSERT_GT(coarse, 0);
+  ASSERT_GT(fine, 0);
+  EXPECT_GT(coarse, nothing);
+  EXPECT_LT(fine - nothing, 1.1 * (coarse - nothing) + 1e6);
+  EXPECT_LT(fine - nothing, 40e6);
 }
 
 // Whatever a thread's last guest did, the engine rounds to nearest.
