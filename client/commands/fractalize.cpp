@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/budget.h"
 #include "client/commands/commands.h"
 #include "client/commands/common.h"
 #include "client/console.h"
@@ -16,12 +17,16 @@
 namespace fjord {
 namespace {
 
+// All of it is kept in memory, about 100 bytes a triangle.
+constexpr double kWeldBudget = 1e8;
+
 struct Options {
   std::string scene;
   uint32_t frame = 0;
   std::string output;
   std::string object;
   std::vector<std::string> sets;
+  std::string budget;
   uint64_t max_points = WeldLimits().max_points;
 };
 
@@ -86,6 +91,8 @@ int RunFractalize(const Options& options) {
   if (!format.ok()) return console::Fail(format.error());
   const Result<std::vector<Setting>> settings = ParseSettings(options.sets);
   if (!settings.ok()) return console::Fail(settings.error());
+  const Result<double> budget = ParseBudget(options.budget, kWeldBudget);
+  if (!budget.ok()) return console::Fail(budget.error());
   OpenedScene scene;
   if (const Errors errors = OpenScene(options.scene, *settings, &scene); !errors.empty())
     return console::Fail(errors);
@@ -99,6 +106,10 @@ int RunFractalize(const Options& options) {
   AssetSet assets;
   const Result<v1::FrameScene> frame = scene.animation->Inbetween(options.frame, &assets);
   if (!frame.ok()) return console::Fail(InScene(frame.error(), options.scene));
+  if (const Result<> held = CheckFrameBudget(*scene.animation, *frame, &assets, options.frame,
+                                             *budget, Counted::kWhole, {options.scene, *settings});
+      !held.ok())
+    return console::Fail(held.error());
   const Result<BuiltFrame> built = BuildFrame(*frame, &assets);
   if (!built.ok()) return console::Fail(InScene(built.error(), options.scene));
   const Result<ShapeFile> shape = Weld(*built, scene.animation->scene(), options);
@@ -134,6 +145,7 @@ void AddFractalize(CLI::App& app, Run* run) {
   command->add_option("--object", options->object, "This object only; default all together");
   command->add_option("--max-points", options->max_points, "Give up beyond so many points")
       ->capture_default_str();
+  AddBudget(command, &options->budget, "1e8");
   command
       ->add_option("--set", options->sets, "path=value, instead of what the scene says; repeatable")
       ->allow_extra_args(false);

@@ -171,6 +171,8 @@ struct MethodInfo {
   Result<std::unique_ptr<PreparedFractal>> (*prepare)(CoarseShape shape,
                                                       const FractalSettings& settings,
                                                       const AdaptiveView* view);
+  // Splits the borders of a mesh alone: what it makes follows their length and not the area.
+  bool borders_only = false;
 };
 
 }  // namespace fjord
