@@ -65,7 +65,6 @@ Json ObjectJson(const ObjectCheck& object) {
           {"proportion", object.proportion},
           {"worst_frame", object.worst_frame},
           {"pops", object.pops},
-          {"flickers", object.flickers},
           {"verdict", object.verdict}};
 }
 
