@@ -1,5 +1,6 @@
 #include "engine/render/coverage.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "engine/base/check.h"
@@ -12,6 +13,35 @@
 // after highway.h: compiled per target
 #include "engine/fractal/stream_lanes-inl.h"
 
+#ifndef FJORD_ENGINE_RENDER_COVERAGE_ONCE
+#define FJORD_ENGINE_RENDER_COVERAGE_ONCE
+namespace fjord {
+namespace {
+
+// Whole vectors are read past the last triangle.
+constexpr size_t kMostLanes = 16;
+
+// The corners of up to kCoverageBlock triangles, x y pairs.
+struct CornerBlock {
+  alignas(64) int64_t corner[3][kCoverageBlock + kMostLanes];
+
+  // Those triangles that `numbers` names; null: all. Kept out of line, out of the code for wide
+  // vectors: g++ 12 makes gathers of several shuffles a corner of it there.
+  HWY_NOINLINE void Load(const Triangle* triangles, const uint32_t* numbers, size_t count,
+                         const int32_t* xy) {
+    for (size_t i = 0; i < count; ++i) {
+      const Triangle& t = triangles[numbers == nullptr ? i : numbers[i]];
+      for (size_t k = 0; k < 3; ++k) std::memcpy(&corner[k][i], xy + 2 * size_t{t[k]}, 8);
+    }
+    // Beyond: triangles without area.
+    for (auto& column : corner) std::fill_n(&column[count], kMostLanes, 0);
+  }
+};
+
+}  // namespace
+}  // namespace fjord
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace fjord {
 namespace HWY_NAMESPACE {
@@ -19,24 +49,6 @@ namespace {
 
 // Highway 1.0 compares integers by < and > only.
 HWY_INLINE MI AtLeast(VI a, VI b) { return hn::Not(hn::Lt(a, b)); }
-
-// The corners of up to kCoverageBlock triangles, x y pairs.
-struct CornerBlock {
-  alignas(64) int64_t corner[3][kCoverageBlock + 16];
-
-  // triangle(i): the i-th of `count`.
-  template <typename TriangleOf>
-  void Load(size_t count, const int32_t* xy, const TriangleOf& triangle) {
-    for (size_t i = 0; i < count; ++i) {
-      const Triangle& t = triangle(i);
-      for (size_t k = 0; k < 3; ++k) std::memcpy(&corner[k][i], xy + 2 * size_t{t[k]}, 8);
-    }
-    // Whole vectors are read: triangles without area.
-    for (size_t i = count; i < count + kLanes32; ++i) {
-      corner[0][i] = corner[1][i] = corner[2][i] = 0;
-    }
-  }
-};
 
 // N triangles on the picture.
 struct Lanes {
@@ -106,6 +118,8 @@ struct LaneEdge {
   }
   HWY_INLINE VI At(VI place) const { return value + PairDot(normal, place); }
 };
+
+static_assert(kLanes32 <= kMostLanes);
 
 // With many lanes there is nearly always something to do.
 constexpr bool kBranch = kLanes32 < 16;
@@ -221,7 +235,7 @@ void Cover(const Triangle* triangles, size_t count, const int32_t* xy, const Til
   const VI one = hn::Set(d, kFixedOne), two = hn::Set(d, 2 * kFixedOne);
   const VI clip = hn::Set(d, kOutOfGuard);
   CornerBlock block;
-  block.Load(count, xy, [&](size_t i) -> const Triangle& { return triangles[i]; });
+  block.Load(triangles, nullptr, count, xy);
   size_t wides = 0;
   out->hits = 0;
   out->larges = 0;
@@ -242,7 +256,7 @@ void Cover(const Triangle* triangles, size_t count, const int32_t* xy, const Til
     coverer.Cover(t, hn::And(touches, small), numbers, 1, 1);
   }
   if (wides == 0) return;
-  block.Load(wides, xy, [&](size_t i) -> const Triangle& { return triangles[out->wide[i]]; });
+  block.Load(triangles, out->wide.data(), wides, xy);
   for (size_t first = 0; first < wides; first += kLanes32) {
     const V32 numbers = hn::LoadU(du, out->wide.data() + first);
     const MI valid = hn::RebindMask(d, hn::FirstN(du, wides - first));

@@ -65,8 +65,10 @@ struct CoverageList {
 void FindCoverage(std::span<const Triangle> triangles, const ProjectedBatch& batch,
                   const TileRect& tile, std::span<const SamplePlace> places, CoverageList* out);
 
-// Fills in the rest of the hits (depths: triangle_setup.h's DepthPlane, bit for bit).
+// Fills in the rest of the hits (depths: triangle_setup.h's DepthPlane, bit for bit). `nearest`:
+// the depths of the tile, which are fetched on the way.
 void FindDepths(std::span<const Triangle> triangles, const ProjectedBatch& batch,
-                const TileRect& tile, std::span<const SamplePlace> places, CoverageList* hits);
+                const TileRect& tile, std::span<const SamplePlace> places, const double* nearest,
+                CoverageList* hits);
 
 }  // namespace fjord

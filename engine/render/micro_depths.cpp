@@ -4,6 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/render/micro_depths.cpp"
+#include "hwy/cache_control.h"
 #include "hwy/foreach_target.h"  // NOLINT: compiles this file once per target
 #include "hwy/highway.h"
 // after highway.h: compiled per target
@@ -93,17 +94,20 @@ struct Led {
     const VI row = hn::ShiftRight<8>(sy) - hn::Set(d, tile.y);
     const VI pixel = row * hn::Set(d, tile.width) + column;
     const V32 sample = hn::And(hn::ShiftRight<HitCode::kSample>(code), hn::Set(du, 0xf));
-    hn::StoreU(Unsigned(pixel * hn::Set(d, samples)) + sample, du, hits.sample.data() + at);
+    const V32 index = Unsigned(pixel * hn::Set(d, samples)) + sample;
+    hn::StoreU(hn::IfThenElseZero(hn::FirstN(du, count), index), du, hits.sample.data() + at);
   }
 };
 
 void Depths(const Triangle* triangles, const int32_t* xy, const double* depths,
-            const TileRect& tile, int32_t samples, CoverageList* hits) {
+            const TileRect& tile, int32_t samples, const double* nearest, CoverageList* hits) {
   const DF d;
   const DN dn;
   constexpr size_t kLanes = hn::MaxLanes(DF());
   for (size_t at = 0; at < hits->hits; at += kLanes32) {
     const Led led(triangles, xy, tile, samples, *hits, at, hits->hits - at);
+    // Soon to be compared with; a tile is too large for the near caches.
+    for (size_t i = at; i < at + kLanes32; ++i) hwy::Prefetch(nearest + hits->sample[i]);
     for (size_t i = 0; i < kLanes32; i += kLanes) {
       VF corner[3];
       for (int k = 0; k < 3; ++k) corner[k] = Gather(depths, hn::Load(dn, led.vertex[k] + i));
@@ -135,10 +139,11 @@ HWY_EXPORT(Depths);
 }  // namespace
 
 void FindDepths(std::span<const Triangle> triangles, const ProjectedBatch& batch,
-                const TileRect& tile, std::span<const SamplePlace> places, CoverageList* hits) {
+                const TileRect& tile, std::span<const SamplePlace> places, const double* nearest,
+                CoverageList* hits) {
   HWY_DYNAMIC_DISPATCH(Depths)
   (triangles.data(), batch.xy.data(), batch.depth.data(), tile, static_cast<int32_t>(places.size()),
-   hits);
+   nearest, hits);
 }
 
 }  // namespace fjord

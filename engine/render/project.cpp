@@ -28,7 +28,7 @@ void Project(const Projection& to, const StreamVertex* HWY_RESTRICT vertices, si
     const VF sum = hn::Set(d, r[0]) * c.v[0] + hn::Set(d, r[1]) * c.v[1];
     return (sum + hn::Set(d, r[2]) * c.v[2]) + hn::Set(d, r[3]);
   };
-  // view.cpp's ToFixed: floor(v + 1/2); inside the guard.
+  // view.cpp's ToFixed: floor(v + 1/2); inside the guard, or kOutOfGuard, which stays itself.
   const auto fixed = [&](VF v) HWY_ATTR { return hn::DemoteTo(di, hn::Floor(v + hn::Set(d, .5))); };
   for (size_t first = 0; first < count; first += kLanes) {
     for (size_t i = 0; i < kLanes; ++i) {
@@ -45,22 +45,10 @@ void Project(const Projection& to, const StreamVertex* HWY_RESTRICT vertices, si
     }
     const MF inside =
         hn::And(hn::Ge(cz, near), hn::And(hn::Lt(hn::Abs(x), guard), hn::Lt(hn::Abs(y), guard)));
-    auto px = fixed(hn::IfThenElse(inside, x, zero));
+    const auto px = fixed(hn::IfThenElse(inside, x, hn::Set(d, double{kOutOfGuard})));
     const auto py = fixed(hn::IfThenElse(inside, y, zero));
     hn::StoreU(nearness, d, depth + first);
-    HWY_ALIGN int32_t fx[kLanes], fy[kLanes];
-    hn::Store(px, di, fx);
-    hn::Store(py, di, fy);
-    for (size_t i = 0; i < kLanes; ++i) {
-      xy[2 * (first + i)] = fx[i];
-      xy[2 * (first + i) + 1] = fy[i];
-    }
-    if (hn::AllTrue(d, inside)) continue;
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, inside, bits);
-    for (size_t i = 0; i < kLanes; ++i) {
-      if ((bits[0] >> i & 1) == 0) xy[2 * (first + i)] = kOutOfGuard;
-    }
+    hn::StoreInterleaved2(px, py, di, xy + 2 * first);
   }
 }
 

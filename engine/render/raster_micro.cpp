@@ -29,7 +29,7 @@ void Raster::AddWinners(const StreamBatch& batch) {
 void Raster::DrawBlock(const StreamBatch& batch, size_t first, size_t count) {
   const std::span<const Triangle> triangles = batch.triangles.subspan(first, count);
   FindCoverage(triangles, projected_, tile_->rect(), tile_->places(), &coverage_);
-  FindDepths(triangles, projected_, tile_->rect(), tile_->places(), &coverage_);
+  FindDepths(triangles, projected_, tile_->rect(), tile_->places(), tile_->depth(), &coverage_);
   std::fill_n(hit_of_.begin(), count, kNoHit);
   winners_.count = 0;
   const auto made = static_cast<uint32_t>(tile_->records());  // hits from here on: winners_
