@@ -41,6 +41,9 @@ export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$root}
 jobs=$(nproc)
 unset FJORD_SIMD
 
+wanted() { [[ $1 == *"$only"* ]]; }
+say() { printf '%s\n' "$*" >&2; }
+
 # What the digests depend on, and how this form looks at it.
 green_key() {
   local tools
@@ -61,9 +64,6 @@ if [[ $form == short ]]; then
     exit 0
   fi
 fi
-
-wanted() { [[ $1 == *"$only"* ]]; }
-say() { printf '%s\n' "$*" >&2; }
 
 # build NAME CMAKE-ARGUMENT...: leaves $work/NAME/tests/gate/fjord_probe.
 build() {
