@@ -26,7 +26,8 @@ struct View {
   uint32_t width = 0, height = 0;
 };
 
-// Total: a camera without a direction looks along +y, one with a useless `up` takes another.
+// Every camera has a view: one without a direction looks along +y, and where `up` says nothing
+// another upward direction is taken.
 View MakeView(const Camera& camera, uint32_t width, uint32_t height);
 
 // Object space to clip space: x and y in 1/256 pixel times z (times 1 when orthographic), z the
