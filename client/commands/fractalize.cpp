@@ -11,6 +11,7 @@
 #include "engine/image/codec.h"
 #include "engine/render/build.h"
 #include "engine/render/frame_renderer.h"
+#include "engine/render/places.h"
 #include "engine/render/view.h"
 
 namespace fjord {
@@ -41,6 +42,15 @@ void AppendMesh(Mesh part, const Transform& transform, bool keep_colors, Mesh* w
   whole->colors.insert(whole->colors.end(), part.colors.begin(), part.colors.end());
 }
 
+std::vector<Transform> PlacesOf(const BuiltObject& object) {
+  if (object.placements.empty()) return {object.transform};
+  std::vector<Transform> places;
+  for (const Transform& placement : object.placements) {
+    places.push_back(Composed(placement, object.transform));
+  }
+  return places;
+}
+
 // All chosen objects of the frame, fractalized, in the scene's space.
 Result<ShapeFile> Weld(const BuiltFrame& frame, const v1::Scene& scene, const Options& options) {
   ShapeFile shape;
@@ -57,13 +67,24 @@ Result<ShapeFile> Weld(const BuiltFrame& frame, const v1::Scene& scene, const Op
       return MakeError(welded.error().code, "object " + name + ": " + welded.error().message,
                        {options.scene, 0, 0});
     }
-    if (welded->curve) {
-      Polyline curve{{}, welded->closed};
-      for (const Vec3& point : welded->mesh.points)
-        curve.points.push_back(Apply(object.transform, point));
-      shape.curves.push_back(std::move(curve));
-    } else {
-      AppendMesh(std::move(welded->mesh), object.transform, all_colored, &shape.mesh);
+    const std::vector<Transform> places = PlacesOf(object);
+    if (welded->mesh.points.size() * places.size() > options.max_points) {
+      return MakeError(ErrorCode::kLimit,
+                       "object " + name + ": " + std::to_string(places.size()) +
+                           " placements have more than " + std::to_string(options.max_points) +
+                           " points together",
+                       {options.scene, 0, 0});
+    }
+    for (const Transform& place : places) {
+      if (welded->curve) {
+        Polyline curve{{}, welded->closed};
+        for (const Vec3& point : welded->mesh.points) curve.points.push_back(Apply(place, point));
+        shape.curves.push_back(std::move(curve));
+      } else if (&place == &places.back()) {
+        AppendMesh(std::move(welded->mesh), place, all_colored, &shape.mesh);
+      } else {
+        AppendMesh(welded->mesh, place, all_colored, &shape.mesh);
+      }
     }
   }
   return shape;

@@ -8,6 +8,7 @@
 #include "engine/animation/fineness.h"
 #include "engine/animation/frame_geometry.h"
 #include "engine/animation/motion.h"
+#include "engine/animation/placements.h"
 #include "engine/base/clamp.h"
 #include "engine/base/fpenv.h"
 #include "engine/scene/track.h"
@@ -30,7 +31,17 @@ std::vector<uint32_t> ChangingFrames(const TrackSet& tracks, uint32_t last) {
 // An object with the lists that tracks do not lead into left out, so that copying it is cheap.
 void Lighten(bool keep_shape, v1::Object* object) {
   if (!keep_shape) object->clear_shape();
+  object->clear_placements();
   object->clear_key();
+}
+
+// The size that tracks may change of heights, or of a grid that is drawn as such.
+Vec3 SizeOfHeights(const v1::Shape& shape) {
+  if (shape.has_heights()) {
+    const v1::Vec3& size = shape.heights().size();
+    return {size.x(), size.y(), size.z()};
+  }
+  return {shape.primitive().size().x(), shape.primitive().size().y(), 1};
 }
 
 class SceneAnimation final : public Animation {
@@ -75,8 +86,12 @@ class SceneAnimation final : public Animation {
  private:
   struct ObjectPlan {
     Motion motion;
-    bool shape_tracked = false;                 // by tracks; then there are no keys
-    FramePose still;                            // the lists that are long and never change
+    bool shape_tracked = false;          // by tracks; then there are no keys
+    FramePose still;                     // the lists that are long and never change
+    std::optional<HeightsPose> heights;  // drawn from its samples; then no more of a shape
+    PlacementList placements;
+    SharedAsset placements_asset;
+    std::vector<PlacementGroup> groups;
     std::optional<v1::FrameFineness> fineness;  // of the shot; none: by frame
   };
 
@@ -88,6 +103,8 @@ class SceneAnimation final : public Animation {
     std::vector<Geometry> keys;
     const auto read = [&](const v1::Shape& shape) -> Result<> {
       Result<Geometry> geometry = DecodeShape(shape, loaded_.assets);
+      if (!geometry) return geometry.error();
+      if (object.has_fractal() || !object.has_shape()) geometry = WithMesh(std::move(*geometry));
       if (!geometry) return geometry.error();
       keys.push_back(std::move(*geometry));
       return {};
@@ -110,8 +127,25 @@ class SceneAnimation final : public Animation {
     }
     if (keys.empty()) return Invalid("objects[" + object.name() + "] has no shape");
     const bool one_key = keys.size() == 1 && !shape_tracked;
-    plans_.push_back({Motion::Make(object, std::move(keys)), shape_tracked, {}, std::nullopt});
+    const std::optional<HeightField> heights = keys[0].heights;
+    plans_.push_back({Motion::Make(object, std::move(keys)), shape_tracked});
     ObjectPlan& plan = plans_.back();
+    if (heights) {
+      HeightsPose& pose = plan.heights.emplace();
+      pose.now = *heights;
+      pose.rest_size = heights->size;
+      pose.flat = !object.shape().has_heights();
+      // what decides how finely they are drawn stands where an object's fractal has it
+      v1::Fractal* fineness = template_.mutable_objects(index)->mutable_fractal();
+      fineness->set_split(v1::Fractal::SHOT);
+      const v1::Heights& written = object.shape().heights();
+      if (written.has_epsilon()) fineness->set_epsilon(written.epsilon());
+      if (!written.has_epsilon()) fineness->set_pixels(pose.flat ? 1 : written.pixels());
+      if (!pose.flat) pose.samples_asset = AssetOf(heights->source);
+    }
+    plan.placements = PlacementsOf(object);
+    plan.placements_asset = AssetOf(plan.placements);
+    plan.groups = GroupPlacements(object, RestBox(index));
     plan.still.rest_asset = AssetOf(plan.motion.rest());
     plan.still.faces_asset = AssetOf(plan.motion.topology());
     if (one_key) {
@@ -163,9 +197,19 @@ class SceneAnimation final : public Animation {
     return work <= 5'000 ? 8 : work <= 100'000 ? 4 : work <= 1'000'000 ? 2 : 1;
   }
 
+  // What work(box) asks for the object's box, or for the finest of its placements.
+  template <typename Work>
+  v1::FrameFineness AtAllPlaces(int index, const Work& work) const {
+    const ObjectPlan& plan = plans_[static_cast<size_t>(index)];
+    if (plan.placements.empty()) return work(RestBox(index));
+    std::vector<v1::FrameFineness> asked;
+    for (const PlacementGroup& group : plan.groups) asked.push_back(work(group.box));
+    return FinestOf(plan.groups, asked);
+  }
+
   // `scratch`: a scene to apply tracks to; the object's own fields of it change.
   void PrepareFineness(int index, v1::Scene* scratch) {
-    const v1::Object& object = scene().objects(index);
+    const v1::Object& object = template_.objects(index);
     if (!object.has_fractal() || object.fractal().split() != v1::Fractal::SHOT) return;
     const Route route = Route().Then("objects", index);
     const Route fractal = route.Then("fractal");
@@ -186,14 +230,37 @@ class SceneAnimation final : public Animation {
       own.Apply(frame, scratch);
       demands.push_back(DemandOf(scratch->objects(index), frame));
     }
-    plans_[static_cast<size_t>(index)].fineness = WorkOutFineness(
-        demands, RestBox(index), scene().output().height(), CellsAlong(frames.size()));
+    plans_[static_cast<size_t>(index)].fineness = AtAllPlaces(index, [&](const Box& rest) {
+      return WorkOutFineness(demands, rest, scene().output().height(), CellsAlong(frames.size()));
+    });
   }
 
   Result<> AddObject(const v1::Scene& now, int index, uint32_t frame, v1::FrameScene* out,
                      AssetSet* assets) const {
     const v1::Object& object = now.objects(index);
     const ObjectPlan& plan = plans_[static_cast<size_t>(index)];
+    v1::FrameObject* message = out->add_object();
+    const uint32_t height = scene().output().height();
+    for (int i = 1; i < object.material().ramp_size(); ++i) {
+      if (object.material().ramp(i).height() <= object.material().ramp(i - 1).height()) {
+        return AtFrame(frame, object, "tracks take ramp heights out of order");
+      }
+    }
+    AssembleObject(object, height, message);
+    AssemblePlacements(plan.placements, plan.placements_asset, message, assets);
+    const auto fineness = [&] {
+      const FinenessDemand demand = DemandOf(object, frame);
+      return plan.fineness ? *plan.fineness : AtAllPlaces(index, [&](const Box& rest) {
+        return WorkOutFineness({&demand, 1}, rest, height);
+      });
+    };
+    if (plan.heights) {
+      HeightsPose pose = *plan.heights;
+      if (plan.shape_tracked) pose.now.size = SizeOfHeights(object.shape());
+      AssembleHeights(pose, message->mutable_heights(), assets);
+      *message->mutable_heights()->mutable_fineness() = fineness();
+      return {};
+    }
     FramePose pose = plan.still;
     std::vector<Vec3> points;
     std::vector<Rgb> colors;
@@ -210,20 +277,10 @@ class SceneAnimation final : public Animation {
     pose.points = points;
     pose.rest = plan.motion.rest();
     pose.colors = colors;
-    for (int i = 1; i < object.material().ramp_size(); ++i) {
-      if (object.material().ramp(i).height() <= object.material().ramp(i - 1).height()) {
-        return AtFrame(frame, object, "tracks take ramp heights out of order");
-      }
-    }
-    v1::FrameObject* message = out->add_object();
-    const uint32_t height = scene().output().height();
     AssembleGeometry(pose, message, assets);
-    AssembleObject(object, height, message);
     if (!object.has_fractal()) return {};
     AssembleFractal(object.fractal(), message->mutable_fractal());
-    const FinenessDemand demand = DemandOf(object, frame);
-    *message->mutable_fractal()->mutable_fineness() =
-        plan.fineness ? *plan.fineness : WorkOutFineness({&demand, 1}, RestBox(index), height);
+    *message->mutable_fractal()->mutable_fineness() = fineness();
     return {};
   }
 

@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,7 @@
 #include "engine/base/random.h"
 #include "engine/base/result.h"
 #include "engine/fractal/settings.h"
+#include "engine/geometry/heights.h"
 #include "engine/geometry/mesh.h"
 
 namespace fjord {
@@ -37,7 +39,8 @@ size_t VectorBytes(const std::vector<T>& list) {
   return list.capacity() * sizeof(T);
 }
 
-// The coarse shape of one object in one frame. Triangles or a curve, never both.
+// The coarse shape of one object in one frame: a mesh, a curve, or heights. A mesh has the form
+// that its method takes (Takes): triangles, cut by the rest pose, or its faces as they are.
 struct CoarseShape {
   std::vector<Vec3> now;            // object space
   std::vector<Vec3> rest;           // as many as now
@@ -45,9 +48,15 @@ struct CoarseShape {
   bool curve = false;               // now, in order, is a polyline
   bool closed = false;
   std::vector<Rgb> colors;  // none, or one a vertex
+  // Takes::kFaces, as in Mesh: vertices of each face, three or more, and their numbers.
+  std::vector<uint32_t> face_size;
+  std::vector<uint32_t> face_vertex;
+  std::optional<HeightField> heights;  // then nothing above is there
+  Vec3 heights_rest{0};                // its size in the rest pose
 
   size_t Bytes() const {
-    return VectorBytes(now) + VectorBytes(rest) + VectorBytes(triangles) + VectorBytes(colors);
+    return VectorBytes(now) + VectorBytes(rest) + VectorBytes(triangles) + VectorBytes(colors) +
+           VectorBytes(face_size) + VectorBytes(face_vertex);
   }
 };
 
@@ -153,7 +162,8 @@ class PreparedFractal {
   virtual size_t Bytes() const = 0;
 };
 
-enum class Takes : uint8_t { kTriangles = 1, kCurve = 2 };
+// What a method reads of a shape: triangles, a curve, or a mesh of faces of any size.
+enum class Takes : uint8_t { kTriangles = 1, kCurve = 2, kFaces = 3 };
 
 struct MethodInfo {
   std::string_view name;

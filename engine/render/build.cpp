@@ -9,6 +9,7 @@
 #include "engine/animation/frame_geometry.h"
 #include "engine/animation/walk.h"
 #include "engine/base/fpenv.h"
+#include "engine/fractal/height_field.h"
 #include "engine/fractal/plain.h"
 #include "engine/fractal/registry.h"
 #include "engine/render/view.h"
@@ -103,6 +104,8 @@ Result<Digest> PreparedKey(const v1::FrameObject& object, const AdaptiveView& vi
   v1::FrameObject part = object;
   part.clear_transform();
   part.clear_material();
+  part.clear_placement();
+  part.clear_placement_asset();
   std::string bytes;
   if (Result<> walked = AppendWalk(part, bytes); !walked) return walked.error();
   if (part.fractal().split() == static_cast<uint32_t>(Split::kAdaptive)) {
@@ -116,7 +119,10 @@ Result<std::shared_ptr<const PreparedFractal>> Prepare(const CoarseShape& shape,
                                                        const FractalSettings& settings,
                                                        const AdaptiveView& view) {
   Result<std::unique_ptr<PreparedFractal>> prepared = MakeError(ErrorCode::kInternal, "");
-  if (settings.method.empty()) {
+  if (shape.heights) {
+    if (!settings.method.empty()) return Inconsistent("heights are drawn without a fractal");
+    prepared = PrepareHeights(*shape.heights, shape.heights_rest, settings.fineness, settings.seed);
+  } else if (settings.method.empty()) {
     prepared = PreparePlain(shape, settings.seed);
   } else {
     const MethodInfo* method = FindFractalMethod(settings.method);
@@ -150,13 +156,23 @@ bool Finite(const CoarseShape& shape) {
 Result<PreparedObject> MakePrepared(const v1::FrameObject& from, const AssetResolver* assets,
                                     const AdaptiveView& view) {
   PreparedObject object;
-  Result<CoarseShape> shape = CoarseShapeOf(from, assets);
+  Takes takes = Takes::kTriangles;
+  if (from.has_fractal()) {
+    const MethodInfo* method = FindFractalMethod(from.fractal().method());
+    if (method != nullptr) takes = method->takes;
+  }
+  Result<CoarseShape> shape = CoarseShapeOf(from, assets, takes);
   if (!shape) return shape.error();
   if (!Finite(*shape)) {
     return Inconsistent("an object's points and colours must be finite and below 1e15");
   }
   object.shape = std::make_shared<const CoarseShape>(std::move(*shape));
   if (from.has_fractal()) object.settings = FractalSettingsOf(from.fractal());
+  if (from.has_heights()) {
+    v1::FrameFractal fineness;
+    *fineness.mutable_fineness() = from.heights().fineness();
+    object.settings.fineness = FractalSettingsOf(fineness).fineness;
+  }
   auto prepared = Prepare(*object.shape, object.settings, view);
   if (!prepared) return prepared.error();
   object.prepared = std::move(*prepared);
@@ -173,6 +189,9 @@ Result<BuiltObject> BuildObject(const v1::FrameObject& from, const AssetResolver
     read->Fail(Inconsistent("a transform needs 12 finite numbers"));
   }
   if (!read->ok()) return read->error();
+  Result<PlacementList> placements = PlacementsOf(from, assets);
+  if (!placements) return placements.error();
+  object.placements = std::move(*placements);
   const AdaptiveView adaptive = MakeAdaptiveView(view, object.transform);
   const Result<Digest> key = PreparedKey(from, adaptive);
   if (!key) return key.error();
@@ -255,6 +274,10 @@ Result<std::shared_ptr<const PreparedFractal>> PrepareObject(const BuiltFrame& f
   FractalSettings settings = object.settings;
   settings.fineness.epsilon *= coarser;
   settings.fineness.pixels *= coarser;
+  const std::optional<HeightField>& heights = object.shape->heights;
+  if (heights && settings.fineness.epsilon <= 0 && settings.fineness.focal <= 0) {
+    settings.fineness.epsilon = coarser * heights->size.x / heights->source->columns();
+  }
   const View view = MakeView(frame.camera, frame.width, frame.height);
   return Prepare(*object.shape, settings, MakeAdaptiveView(view, object.transform));
 }

@@ -71,6 +71,7 @@ struct BuiltObject {
   std::shared_ptr<const CoarseShape> shape;
   FractalSettings settings;
   Transform transform = kNoTransform;
+  std::vector<Transform> placements;  // drawn once at each, before `transform`; none: once
   Material material;
   std::shared_ptr<const TextureChain> texture;  // null: none
 };

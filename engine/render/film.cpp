@@ -171,7 +171,7 @@ void Film::InterpolateCorners(const TileBuffer& tile, size_t i, uint32_t hit,
 }
 
 void Film::ApplyTexture(uint32_t object) {
-  const BuiltObject& built = setup_->frame.objects[object];
+  const BuiltObject& built = setup_->frame.objects[setup_->objects[object].object];
   if (!built.texture || built.texture->empty()) return;
   texture_.resize(hits_.size);
   for (size_t i = 0; i < hits_.size; ++i) {
@@ -194,7 +194,7 @@ void Film::ApplyTexture(uint32_t object) {
 
 void Film::ShadeObject(const TileBuffer& tile, uint32_t object) {
   const ObjectSetup& setup = setup_->objects[object];
-  const Material& material = setup_->frame.objects[object].material;
+  const Material& material = setup_->frame.objects[setup.object].material;
   for (size_t i = 0; i < hits_.size; ++i) {
     const Rgb& normal = tile.record(hit_of_[i]).normal;
     for (int k = 0; k < 3; ++k) hits_.normal[k][i] = normal[k];

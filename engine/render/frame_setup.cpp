@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/render/outline_fill.h"
+#include "engine/render/places.h"
 
 namespace fjord {
 namespace {
@@ -30,7 +31,8 @@ std::array<float, 9> NormalMatrix(const std::array<double, 9>& cofactors) {
 
 // The plane of a closed coarse curve: its mean place and its area vector (Newell). None for curves
 // that are not filled or have no area.
-std::optional<ViewPlane> FillPlane(const View& view, const BuiltObject& object) {
+std::optional<ViewPlane> FillPlane(const View& view, const BuiltObject& object,
+                                   const Transform& transform) {
   const CoarseShape& shape = *object.shape;
   if (!object.material.fill || !shape.curve || !shape.closed || shape.now.size() < 3) {
     return std::nullopt;
@@ -42,10 +44,10 @@ std::optional<ViewPlane> FillPlane(const View& view, const BuiltObject& object) 
     area += glm::cross(shape.now[i] - mean, shape.now[(i + 1) % shape.now.size()] - mean);
   }
   double determinant = 0;
-  const std::array<double, 9> c = Cofactors(object.transform, &determinant);
+  const std::array<double, 9> c = Cofactors(transform, &determinant);
   const Vec3 normal(glm::dot(Vec3(c[0], c[1], c[2]), area), glm::dot(Vec3(c[3], c[4], c[5]), area),
                     glm::dot(Vec3(c[6], c[7], c[8]), area));
-  return MakeViewPlane(view, Apply(object.transform, mean), Unit(normal));
+  return MakeViewPlane(view, Apply(transform, mean), Unit(normal));
 }
 
 }  // namespace
@@ -69,15 +71,17 @@ FrameSetup::FrameSetup(const BuiltFrame& built)
   geometry.orthographic = view.orthographic;
   geometry.wants_position = any_local;
 
-  for (const BuiltObject& object : built.objects) {
+  for (const ObjectPlace& place : PlacesSeen(built, view)) {
+    const BuiltObject& object = built.objects[place.object];
     const Material& material = object.material;
     ObjectSetup setup;
-    setup.to = MakeProjection(view, object.transform);
+    setup.object = place.object;
+    setup.to = MakeProjection(view, place.transform);
     setup.attributes.normals = material.smooth && object.settings.method.empty();
     setup.attributes.colors = material.vertex_color && !object.shape->colors.empty();
     setup.line_width = material.line_width;
     double determinant = 0;
-    const std::array<double, 9> cofactors = Cofactors(object.transform, &determinant);
+    const std::array<double, 9> cofactors = Cofactors(place.transform, &determinant);
     setup.surface.lit = !object.shape->curve;
     setup.surface.diffuse = material.diffuse;
     setup.surface.specular = material.specular;
@@ -90,12 +94,12 @@ FrameSetup::FrameSetup(const BuiltFrame& built)
       // last row of the inverse: object z of a world point
       const Vec3 row(cofactors[2] / determinant, cofactors[5] / determinant,
                      cofactors[8] / determinant);
-      const Vec3 moved(object.transform[3], object.transform[7], object.transform[11]);
+      const Vec3 moved(place.transform[3], place.transform[7], place.transform[11]);
       setup.geometry.height_row = row;
       setup.geometry.height_offset = -glm::dot(row, moved);
     }
     if (!material.ramp.empty()) setup.geometry.height_offset -= material.ramp.front().height;
-    setup.fill = FillPlane(view, object);
+    setup.fill = FillPlane(view, object, place.transform);
     objects.push_back(setup);
     CullObject culled{object.prepared.get(), setup.to};
     if (object.shape->curve) culled.spread = StrokeSpread(material.line_width);

@@ -13,7 +13,9 @@
 
 namespace fjord {
 
+// An object at one of its places.
 struct ObjectSetup {
+  uint32_t object = 0;  // of BuiltFrame::objects
   Projection to;
   Attributes attributes;
   double line_width = 1;

@@ -222,9 +222,24 @@ void FillShapeNumbers(v1::Scene* scene) {
   for (int i = 0; i < scene->objects_size(); ++i) {
     for (const ShapeEntry& entry : ShapesOf(scene, i)) {
       if (entry.shape->has_primitive()) FillPrimitive(entry.shape->mutable_primitive());
+      if (entry.shape->has_heights()) {
+        v1::Heights* heights = entry.shape->mutable_heights();
+        Fill(heights->mutable_size(), 1, 1, 1);
+        if (!heights->has_pixels() && !heights->has_epsilon()) heights->set_pixels(1);
+      }
     }
   }
 }
+
+namespace {
+
+void FillTransform(v1::Transform* transform) {
+  Fill(transform->mutable_translate(), 0, 0, 0);
+  Fill(transform->mutable_rotate(), 0, 0, 0);
+  Fill(transform->mutable_scale(), 1, 1, 1);
+}
+
+}  // namespace
 
 void FillPlainDefaults(v1::Scene* scene, const SceneShapes& shapes) {
   FillOutput(scene);
@@ -241,12 +256,8 @@ void FillPlainDefaults(v1::Scene* scene, const SceneShapes& shapes) {
     const auto index = static_cast<size_t>(i);
     const Geometry* geometry = shapes.FirstOf(index);
     const Box box = shapes.BoundsOf(index);
-    if (object->has_transform()) {
-      v1::Transform* transform = object->mutable_transform();
-      Fill(transform->mutable_translate(), 0, 0, 0);
-      Fill(transform->mutable_rotate(), 0, 0, 0);
-      Fill(transform->mutable_scale(), 1, 1, 1);
-    }
+    if (object->has_transform()) FillTransform(object->mutable_transform());
+    for (v1::Transform& placement : *object->mutable_placements()) FillTransform(&placement);
     if (object->key_size() > 0 && !object->has_rest_frame()) {
       object->set_rest_frame(object->key(object->key_size() - 1).frame());
     }

@@ -14,6 +14,7 @@ inline constexpr double kFarthest = 1e15;             // the eye, where it is wo
 inline constexpr uint64_t kFilePoints = 16'000'000;   // one shape from a file or a primitive
 inline constexpr uint64_t kInlinePoints = 1'000'000;  // all shapes written in the scene together
 inline constexpr int kObjects = 10'000;
+inline constexpr int kPlacements = 1'000'000;  // of all objects together
 inline constexpr int kLights = 1'000;
 inline constexpr int kTracks = 10'000;
 inline constexpr int kKeys = 100'000;      // key pictures, and track keys, together each

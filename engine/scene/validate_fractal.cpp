@@ -92,6 +92,10 @@ void CheckFractal(const v1::Scene& scene, int object, const SceneShapes& shapes,
   const v1::Fractal& fractal = message.fractal();
   const Route route = Route().Then("objects", object).Then("fractal");
   CheckFineness(fractal, route, errors);
+  if (fractal.split() == v1::Fractal::ADAPTIVE && message.placements_size() > 0) {
+    errors->Add(route.Then("split"),
+                "ADAPTIVE looks at one place, and the object has placements; take SHOT");
+  }
   if (fractal.method().empty()) {
     CheckForAnyMethod(fractal, route, errors);
     return;

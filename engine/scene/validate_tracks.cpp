@@ -21,8 +21,13 @@ std::string WhyFixed(const v1::Scene& scene, const Route& route) {
   if (top != "objects" || steps.size() < 2) return "";
   const std::string& part = steps[1].field->name();
   if (part == "key") return "a key picture stands at one frame; add a key instead";
+  if (part == "placements") return "placements stand still; move the object's own transform";
   if (part == "shape" && scene.objects(steps[0].index).key_size() > 0)
     return "the shape comes from keys";
+  if (part == "shape" && steps.size() > 3 && steps[2].field->name() == "heights" &&
+      steps[3].field->name() != "size") {
+    return "of heights only the size can change";
+  }
   return "";
 }
 

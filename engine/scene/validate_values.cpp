@@ -132,6 +132,9 @@ bool CheckCounts(const v1::Scene& scene, SceneErrors* errors) {
   };
   const auto size = [](int n) { return static_cast<uint64_t>(n); };
   check(size(scene.objects_size()), limits::kObjects, Route().Then("objects"), "objects");
+  uint64_t placements = 0;
+  for (const v1::Object& object : scene.objects()) placements += size(object.placements_size());
+  check(placements, limits::kPlacements, Route().Then("objects"), "placements");
   check(size(scene.lights_size()), limits::kLights, Route().Then("lights"), "lights");
   check(size(scene.track_size()), limits::kTracks, Route().Then("track"), "tracks");
   uint64_t keys = 0, points = 0, track_keys = 0;

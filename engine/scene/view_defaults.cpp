@@ -65,6 +65,21 @@ Box TrackedBox(const v1::Scene& scene, int object, const TrackSet& tracks, Box b
   return box;
 }
 
+// Round the box at every placement.
+Box PlacedBox(const v1::Object& object, const Box& box) {
+  if (object.placements_size() == 0) return box;
+  Box placed;
+  for (const v1::Transform& placement : object.placements()) {
+    const ObjectTransform transform(placement);
+    for (int corner = 0; corner < 8; ++corner) {
+      placed.Add(transform.ToWorld({(corner & 1) != 0 ? box.high.x : box.low.x,
+                                    (corner & 2) != 0 ? box.high.y : box.low.y,
+                                    (corner & 4) != 0 ? box.high.z : box.low.z}));
+    }
+  }
+  return placed;
+}
+
 // A scene without its shapes, light enough to apply tracks to.
 v1::Scene WithoutShapes(const v1::Scene& scene) {
   v1::Scene light;
@@ -89,6 +104,7 @@ Box WorldBox(const v1::Scene& scene, const SceneShapes& shapes, const TrackSet& 
     const TrackSet shape_tracks = of_object.Inside({route.Then("shape")});
     if (!shape_tracks.empty()) box = TrackedBox(scene, i, shape_tracks, box);
     if (box.empty) continue;
+    box = PlacedBox(scene.objects(i), box);
     const TrackSet moves = of_object.Inside({route.Then("transform")});
     for (const double frame : SampledFrames(moves, scene.output().frames())) {
       moves.Apply(frame, &now);
