@@ -4,6 +4,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <cstring>
 #include <memory>
 
 namespace fjord {
@@ -94,7 +95,6 @@ bool Decode(std::string_view bytes, const std::string& ending, Picture* picture,
   OIIO::ImageSpec spec;
   if (!in->open("frame." + ending, spec, config)) return fail(in->geterror());
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1) return fail("no flat picture");
-  if (spec.nchannels < 3) return fail("fewer than three channels");
   picture->width = static_cast<uint32_t>(spec.width);
   picture->height = static_cast<uint32_t>(spec.height);
   picture->format = FormatOf(ending, spec);
@@ -103,8 +103,18 @@ bool Decode(std::string_view bytes, const std::string& ending, Picture* picture,
       size_t{picture->width} * picture->height * 3 * SampleType(picture->format).size();
   if (claimed / 1100 > bytes.size()) return fail("shorter than its header says");
   picture->bytes.resize(claimed);
-  if (!in->read_image(0, 0, 0, 3, SampleType(picture->format), picture->bytes.data()))
+  // Grey, with or without alpha: the one channel three times.
+  const int channels = spec.nchannels < 3 ? 1 : 3;
+  const size_t sample = SampleType(picture->format).size();
+  if (!in->read_image(0, 0, 0, channels, SampleType(picture->format), picture->bytes.data(),
+                      static_cast<OIIO::stride_t>(3 * sample))) {
     return fail(in->geterror());
+  }
+  for (size_t at = 0; channels == 1 && at < claimed; at += 3 * sample) {
+    for (size_t k = 1; k < 3; ++k) {
+      std::memcpy(&picture->bytes[at + k * sample], &picture->bytes[at], sample);
+    }
+  }
   if (info != nullptr) {
     info->clear();
     for (const OIIO::ParamValue& value : spec.extra_attribs) {

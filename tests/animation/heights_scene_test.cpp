@@ -56,6 +56,26 @@ TEST(HeightsSceneTest, APictureOfSixteenBitsKeepsEveryStep) {
   EXPECT_GT(heights.fineness().pixels(), 0);
 }
 
+// As programs that make heights write them: one channel of 16 bits. 65535 65534 65533 over 0 1 258.
+TEST(HeightsSceneTest, GreyPicturesAreRead) {
+  const std::string hex =
+      "89504e470d0a1a0a0000000d4948445200000003000000021000000000e88fe585000000194944415478"
+      "01010e00f1ff00fffffffefffd000000000101023ebc05fcd3bed66a0000000049454e44ae426082";
+  std::string png;
+  for (size_t i = 0; i < hex.size(); i += 2) {
+    png += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
+  }
+  const auto animation =
+      Animate(Scene("shape { heights { file { path: \"h.png\" } } }"), {}, {{"h.png", png}});
+  ASSERT_NE(animation, nullptr);
+  const v1::FrameHeights heights = FrameOf(*animation, 1).object(0).heights();
+  ASSERT_EQ(heights.sample_size(), 6);
+  const int wanted[] = {0, 1, 258, 65535, 65534, 65533};
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(heights.sample(i), double{static_cast<float>(wanted[i]) / 65535.f}) << i;
+  }
+}
+
 TEST(HeightsSceneTest, LargeHeightsAreNamedAndStayOneInMemory) {
   const std::string png = Png16(
       100, 80, [](uint32_t x, uint32_t y) { return static_cast<uint16_t>(x * 91 + y * 313); });
