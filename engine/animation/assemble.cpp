@@ -41,6 +41,10 @@ void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame) {
   output->set_height(now.output().height());
   output->set_format(static_cast<uint32_t>(now.output().format()));
   output->set_samples(now.output().samples());
+  const auto& layers = now.output().layers();
+  if (std::find(layers.begin(), layers.end(), v1::Output::DEPTH) != layers.end()) {
+    output->add_layer(v1::Output::DEPTH);
+  }
 
   v1::FrameCamera* camera = frame->mutable_camera();
   Append(now.camera().eye(), camera->mutable_eye());
@@ -57,7 +61,12 @@ void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame) {
 
   Append(now.background().top(), 1, frame->mutable_background());
   Append(now.background().bottom(), 1, frame->mutable_background());
+  frame->set_sky(static_cast<uint32_t>(now.background().kind()));
   Append(now.ambient(), 1, frame->mutable_ambient());
+  if (now.has_haze() && now.haze().density() > 0) {
+    Append(now.haze().color(), 1, frame->mutable_haze()->mutable_color());
+    frame->mutable_haze()->set_density(now.haze().density());
+  }
   for (const v1::Light& light : now.lights()) {
     v1::FrameLight* out = frame->add_light();
     const bool local = light.kind() == v1::Light::LOCAL;
@@ -65,6 +74,7 @@ void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame) {
     Append(local ? light.position() : light.direction(), out->mutable_place());
     if (local) out->set_range(light.range());
     Append(light.color(), light.intensity(), out->mutable_color());
+    if (light.shadow()) out->set_shadow(light.shadow_detail());
   }
   if (now.has_sea()) {
     v1::FrameSea* sea = frame->mutable_sea();

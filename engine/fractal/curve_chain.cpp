@@ -79,6 +79,7 @@ Result<CurveChain> MakeCurveChain(const CoarseShape& shape, const FractalSetting
   }
   CurveChain chain;
   chain.closed = shape.closed;
+  chain.colors = shape.colors;
   for (size_t i = 0; i < count; ++i) {
     if (!IsFinite(shape.now[i]) || !IsFinite(shape.rest[i])) {
       return Invalid("point " + std::to_string(i + 1) + " of the curve is not finite");
@@ -111,9 +112,6 @@ Result<CurveChain> MakeCurveChain(const CoarseShape& shape, const FractalSetting
     v.stretch = StretchOf(stretch, stretched);
     const Vec3 eye = shape.rest[i] - settings.fineness.eye;
     v.eye_distance2 = ClampToFloat(glm::dot(eye, eye));
-    if (!shape.colors.empty()) {
-      v.color = shape.colors[i];
-    }
     chain.vertices.push_back(v);
   }
   return chain;

@@ -141,7 +141,7 @@ LineHalf LineRules::Halve(const LineSegment& s, const LineFrame& frame, const Si
   LineVertex& v = half.vertex;
   v.id = MidpointIdentity(s.a.id, s.b.id);
   v.level = s.level() + 1;
-  v.color = (s.a.color + s.b.color) * .5f;
+  v.place = (s.a.place + s.b.place) * .5;
   const double stretch = (static_cast<double>(s.a.stretch) + static_cast<double>(s.b.stretch)) * .5;
   v.stretch = static_cast<float>(stretch);
   const double distance2 =

@@ -18,7 +18,7 @@ struct LineVertex {
   float stretch = 1;
   float eye_distance2 = 0;
   uint32_t level = 0;
-  Rgb color{1};
+  Weights place{0};  // in its input edge
 };
 
 // From a to b along the chain: what is on its right-hand side is outside.

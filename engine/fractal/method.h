@@ -66,12 +66,19 @@ struct StreamVertex {
 };
 static_assert(sizeof(StreamVertex) == 64);
 
+// Where a vertex lies in the coarse element that it was made from: the weights of the element's
+// corners, whose sum is 1 (a segment: the third is 0). A midpoint's are the exact means of its
+// ends', dyadic fractions, wherever the midpoint is moved to: so what a coarse vertex has (colour,
+// rest position, ...) is known anywhere on the fine surface without being carried there.
+using Weights = Vec3;
+
 // Leaves of one patch. Spans are valid during the call only.
 struct StreamBatch {
   std::span<const StreamVertex> vertices;
   std::span<const Triangle> triangles;                // index vertices
   std::span<const std::array<uint32_t, 2>> segments;  // curves: index vertices, in order
-  std::span<const Rgb> colors;                        // none, or one a vertex
+  std::span<const Weights> places;  // one a vertex where the sink reads them, all in `element`
+  uint32_t element = 0;             // PreparedFractal::Corners
 };
 
 // How far from a triangle what is made of it can lie: at p + s w + r, p in the triangle, |s| <=
@@ -107,6 +114,8 @@ class StreamSink {
   // be wanted? Object space, now. Must never say no wrongly; yes costs time only.
   virtual bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) = 0;
   virtual void Take(const StreamBatch& batch) = 0;
+  // Are batches to say where their vertices lie?
+  virtual bool ReadsPlaces() const { return false; }
 };
 
 // The projection that Split::kAdaptive reads: object space to pixels. Rows give x*w, y*w and w.
@@ -144,6 +153,8 @@ class PreparedFractal {
  public:
   virtual ~PreparedFractal() = default;
   virtual size_t RootCount() const = 0;
+  // The coarse vertices that the weights of a place in that element belong to.
+  virtual Triangle Corners(uint32_t element) const = 0;
   // Object space; all that the root can become, rounding included (S7).
   virtual Ball Bound(size_t root) const = 0;
   // patch_hint: about how many leaves to make at a time (256..4096); never changes a bit.

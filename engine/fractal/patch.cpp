@@ -16,6 +16,7 @@ void Patch::Clear(const EdgeSite* edge_sites, bool with_colors, size_t most_vert
   vertex_limit = most_vertices;
   sites = edge_sites;
   colors = with_colors;
+  places = false;
   vertex_count = 0;
   edge_count = 0;
   run_begin = 0;
@@ -25,12 +26,17 @@ void Patch::Clear(const EdgeSite* edge_sites, bool with_colors, size_t most_vert
   leaf_count = 0;
 }
 
-uint32_t Patch::AddVertex(const StreamVertex& value, const Rgb& vertex_color) {
+uint32_t Patch::AddVertex(const StreamVertex& value, const Rgb& vertex_color,
+                          const Weights& its_place) {
   vertex.Reserve(vertex_count + 1, vertex_count);
   vertex[vertex_count] = value;
   if (colors) {
     color.Reserve(vertex_count + 1, vertex_count);
     color[vertex_count] = vertex_color;
+  }
+  if (places) {
+    place.Reserve(vertex_count + 1, vertex_count);
+    place[vertex_count] = its_place;
   }
   return static_cast<uint32_t>(vertex_count++);
 }
@@ -85,6 +91,7 @@ PatchStep Patch::Step(const SurfaceRules& rules, uint32_t level) {
   const size_t edges = halves[1] + padded + 3 * triangles.count;
   vertex.Reserve(vertex_count + long_count, vertex_count);
   if (colors) color.Reserve(vertex_count + long_count, vertex_count);
+  if (places) place.Reserve(vertex_count + long_count, vertex_count);
   edge_a.Reserve(edges, edge_count);
   edge_b.Reserve(edges, edge_count);
   edge_length2.Reserve(edges, edge_count);
@@ -102,6 +109,11 @@ PatchStep Patch::Step(const SurfaceRules& rules, uint32_t level) {
   if (colors) {
     for (size_t k = 0; k < long_count; ++k) {
       color[midpoints + k] = (color[long_a[k]] + color[long_b[k]]) * .5f;
+    }
+  }
+  if (places) {
+    for (size_t k = 0; k < long_count; ++k) {
+      place[midpoints + k] = (place[long_a[k]] + place[long_b[k]]) * .5;
     }
   }
   run_begin = halves[0];
@@ -130,7 +142,7 @@ std::span<const Triangle> Patch::PackLeaves() {
 }
 
 size_t Patch::Bytes() const {
-  size_t bytes = vertex.bytes() + color.bytes() + edge_a.bytes() + edge_b.bytes() +
+  size_t bytes = vertex.bytes() + color.bytes() + place.bytes() + edge_a.bytes() + edge_b.bytes() +
                  edge_site.bytes() + edge_length2.bytes() + edge_current2.bytes() +
                  edge_slot.bytes() + 3 * long_edge.bytes() + long_length2.bytes() +
                  long_amount.bytes() + leaf_triangles.bytes();

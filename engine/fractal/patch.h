@@ -81,6 +81,7 @@ struct Patch {
 
   PatchBuffer<StreamVertex> vertex;
   PatchBuffer<Rgb> color;
+  PatchBuffer<Weights> place;
   size_t vertex_count = 0;
   size_t vertex_limit = 0;
 
@@ -106,11 +107,13 @@ struct Patch {
   PatchBuffer<Triangle> leaf_triangles;  // filled by PackLeaves
 
   bool colors = false;
+  bool places = false;  // set after Clear, before AddVertex
   const EdgeSite* sites = nullptr;
 
   // Empties the tables.
   void Clear(const EdgeSite* edge_sites, bool with_colors, size_t most_vertices);
-  uint32_t AddVertex(const StreamVertex& value, const Rgb& vertex_color);
+  uint32_t AddVertex(const StreamVertex& value, const Rgb& vertex_color,
+                     const Weights& its_place = {});
   // `length2`: as stored. A new run begins with the first edge after Clear.
   uint32_t AddEdge(uint32_t a, uint32_t b, double length2, double current2, uint32_t site);
   void AddTriangle(const Triangle& corners, const Triangle& edges, uint32_t site, bool sites_kept);

@@ -71,6 +71,8 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
 
   size_t RootCount() const override { return coarse_.triangles.size(); }
 
+  Triangle Corners(uint32_t element) const override { return coarse_.triangles[element]; }
+
   Ball Bound(size_t root) const override {
     const PatchRoot r = CoarseRoot(root);
     const std::array<EdgeSite, 4> sites = SitesOf(root);
@@ -100,8 +102,8 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
         continue;
       }
       const bool small = ExpectedLeaves(next) <= static_cast<double>(hint);
-      if (!small || !Expand(next, sites.data(), hint, space.patch, sink, stats)) {
-        Cut(next, sites.data(), space, stats);
+      if (!small || !Expand(next, root, sites.data(), hint, space.patch, sink, stats)) {
+        Cut(next, sites.data(), sink.ReadsPlaces(), space, stats);
       }
     }
     return stats;
@@ -127,6 +129,7 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
       const CoarseEdge& edge = coarse_.edges[coarse_.triangle_edges[root][k]];
       r.vertex[k] = coarse_.vertices[v];
       if (!coarse_.colors.empty()) r.color[k] = coarse_.colors[v];
+      r.place[k] = Weights(k == 0, k == 1, k == 2);
       r.length2[k] = edge.length2;
       r.current2[k] = edge.current2;
       r.site[k] = static_cast<uint32_t>(k + 1);
@@ -202,7 +205,9 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
   void Load(const PatchRoot& root, uint32_t first_site, bool sites_kept,
             Patch& patch) const override {
     Triangle corners, edges;
-    for (size_t k = 0; k < 3; ++k) corners[k] = patch.AddVertex(root.vertex[k], root.color[k]);
+    for (size_t k = 0; k < 3; ++k) {
+      corners[k] = patch.AddVertex(root.vertex[k], root.color[k], root.place[k]);
+    }
     for (size_t k = 0; k < 3; ++k) {
       edges[k] = patch.AddEdge(corners[k], corners[(k + 1) % 3], root.length2[k], root.current2[k],
                                first_site + root.site[k]);
@@ -211,10 +216,11 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
   }
 
   // False where the tables would grow far beyond what was expected; nothing was emitted.
-  bool Expand(const PatchRoot& root, const EdgeSite* sites, size_t hint, Patch& patch,
-              StreamSink& sink, StreamStats& stats) const {
+  bool Expand(const PatchRoot& root, size_t element, const EdgeSite* sites, size_t hint,
+              Patch& patch, StreamSink& sink, StreamStats& stats) const {
     const SurfaceRules& rules = RulesOf(root, sites);
-    patch.Clear(sites, !coarse_.colors.empty(), 3 * hint + 64);
+    patch.Clear(sites, false, 3 * hint + 64);
+    patch.places = sink.ReadsPlaces();
     Load(root, 0, rules.sites, patch);
     uint32_t level = root.level;
     PatchStep step;
@@ -223,7 +229,8 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
     StreamBatch batch;
     batch.vertices = {patch.vertex.data(), patch.vertex_count};
     batch.triangles = patch.PackLeaves();
-    if (patch.colors) batch.colors = {patch.color.data(), patch.vertex_count};
+    if (patch.places) batch.places = {patch.place.data(), patch.vertex_count};
+    batch.element = static_cast<uint32_t>(element);
     stats.midpoints += patch.vertex_count - 3;
     stats.triangles += patch.leaf_count;
     stats.depth = std::max(stats.depth, level);
@@ -232,11 +239,12 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
   }
 
   // One level, then every triangle becomes a root of its own.
-  void Cut(const PatchRoot& root, const EdgeSite* sites, Workspace& space,
+  void Cut(const PatchRoot& root, const EdgeSite* sites, bool places, Workspace& space,
            StreamStats& stats) const {
     Patch& patch = space.patch;
     const SurfaceRules& rules = RulesOf(root, sites);
-    patch.Clear(sites, !coarse_.colors.empty(), kMostPoints);
+    patch.Clear(sites, false, kMostPoints);
+    patch.places = places;
     Load(root, 0, rules.sites, patch);
     const PatchStep step = patch.Step(rules, root.level);
     FJORD_CHECK(step == PatchStep::kSplit, root.level);
@@ -256,6 +264,7 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
       const uint32_t e = patch.triangles.edge[k][t] & ~Patch::kFlip;
       child.vertex[k] = patch.vertex[v];
       if (patch.colors) child.color[k] = patch.color[v];
+      if (patch.places) child.place[k] = patch.place[v];
       child.length2[k] = patch.edge_length2[e];
       child.current2[k] = patch.edge_current2[e];
       child.site[k] = sites_kept ? patch.edge_site[e] : 0;

@@ -205,6 +205,14 @@ Result<BuiltFrame> BuildFrame(const v1::FrameScene& from, const AssetResolver* a
   if (frame.samples != 1 && frame.samples != 4 && frame.samples != 16) {
     return Inconsistent("samples must be 1, 4 or 16, not " + std::to_string(frame.samples));
   }
+  for (const uint32_t layer : from.output().layer()) {
+    constexpr uint32_t kDepth = 1;  // Output.DEPTH
+    if (layer != kDepth) return Inconsistent("unknown output layer");
+    if (FileEnding(frame.format) != std::string_view("exr")) {
+      return Inconsistent("only EXR pictures have layers");
+    }
+    frame.depth_layer = true;
+  }
   const v1::FrameCamera& camera = from.camera();
   frame.camera.eye = read.Vector(camera.eye(), Vec3(0), "camera.eye");
   frame.camera.look_at = read.Vector(camera.look_at(), Vec3(0), "camera.look_at");
@@ -220,16 +228,27 @@ Result<BuiltFrame> BuildFrame(const v1::FrameScene& from, const AssetResolver* a
   }
   if (from.background_size() == 6 && Finite(from.background())) {
     const auto& b = from.background();
-    frame.background_top = Rgb(Vec3(b[0], b[1], b[2]));
-    frame.background_bottom = Rgb(Vec3(b[3], b[4], b[5]));
+    frame.sky.top = Rgb(Vec3(b[0], b[1], b[2]));
+    frame.sky.bottom = Rgb(Vec3(b[3], b[4], b[5]));
   } else if (from.background_size() != 0) {
     return Inconsistent("background needs six finite numbers");
   }
+  if (from.sky() > 1) return Inconsistent("unknown kind of sky");
+  frame.sky.kind = static_cast<SkyKind>(from.sky());
+  if (from.has_haze()) {
+    frame.haze = Haze{read.Color(from.haze().color(), "haze.color"),
+                      read.Number(from.haze().density(), 0, 1e9, "haze.density")};
+  }
+  frame.instant = read.Number(from.instant(), -kAbsurd, kAbsurd, "instant");
   frame.ambient = read.Color(from.ambient(), "ambient");
   for (const v1::FrameLight& light : from.light()) {
     frame.lights.push_back({light.local(), read.Vector(light.place(), Vec3(0, 0, 1), "a light"),
                             read.Number(light.range(), 0, kAbsurd, "a light's range"),
-                            read.Color(light.color(), "a light's color")});
+                            read.Color(light.color(), "a light's color"),
+                            read.Number(light.shadow(), 0, kAbsurd, "a light's shadow")});
+    if (light.local() && light.shadow() > 0) {
+      return Inconsistent("only directional lights have shadows");
+    }
   }
   if (from.has_sea()) {
     frame.sea =

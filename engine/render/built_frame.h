@@ -15,7 +15,10 @@
 #include "engine/fractal/method.h"
 #include "engine/geometry/vec.h"
 #include "engine/image/picture.h"
+#include "engine/render/haze.h"
+#include "engine/render/sky.h"
 #include "engine/texture/stage.h"
+#include "engine/texture/uv_map.h"
 
 namespace fjord {
 
@@ -34,6 +37,7 @@ struct Light {
   Vec3 place{0, 0, 1};  // direction towards it (any length), or position
   double range = 1;     // local
   Rgb color{1};
+  double shadow = 0;  // directional: width of a texel of its shadow map; 0: nothing is kept from it
 };
 
 struct Sea {
@@ -73,6 +77,7 @@ struct BuiltObject {
   Transform transform = kNoTransform;
   Material material;
   std::shared_ptr<const TextureChain> texture;  // null: none
+  UvMap uv;
 };
 
 struct BuiltFrame {
@@ -80,12 +85,14 @@ struct BuiltFrame {
   uint32_t height = 0;
   PixelFormat format = PixelFormat::kPng8;
   uint32_t samples = 4;  // 1, 4 or 16
+  bool depth_layer = false;
   Camera camera;
-  Rgb background_top{0};
-  Rgb background_bottom{0};
+  Sky sky;
   Rgb ambient{0};
   std::vector<Light> lights;
   std::optional<Sea> sea;
+  std::optional<Haze> haze;
+  double instant = 0;  // frames; 0 where no texture stage reads the time
   std::vector<BuiltObject> objects;
 };
 

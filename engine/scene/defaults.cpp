@@ -200,6 +200,10 @@ void FillSurroundings(v1::Scene* scene, const std::string& file_name) {
   Fill(scene->mutable_background()->mutable_top(), .12, .28, .58);
   Fill(scene->mutable_background()->mutable_bottom(), .62, .74, .86);
   Fill(scene->mutable_ambient(), .22, .26, .33);
+  if (scene->has_haze()) {
+    const v1::Color& horizon = scene->background().bottom();
+    Fill(scene->mutable_haze()->mutable_color(), horizon.r(), horizon.g(), horizon.b());
+  }
   if (scene->name().empty()) scene->set_name(StemOf(file_name));
   if (scene->lights_size() == 0) {
     v1::Light* sun = scene->add_lights();

@@ -29,6 +29,8 @@ constexpr Row kRows[] = {
     {"fjord.v1.Color.b", {0, 1e6, false}},
     {"fjord.v1.Light.range", {0, kLargest, true}},
     {"fjord.v1.Light.intensity", {0, 1e6, false}},
+    {"fjord.v1.Light.shadow_detail", {0, kLargest, true}},
+    {"fjord.v1.Haze.density", {0, 1e9, false}},
     {"fjord.v1.Sea.specular", {0, 1000, false}},
     {"fjord.v1.Sea.shininess", {1, 200, false}},
     {"fjord.v1.Key.frame", {1, limits::kFrames, false}},

@@ -206,10 +206,19 @@ void FillViewDefaults(v1::Scene* scene, const SceneShapes& shapes) {
     const double distance = LeastEyeDistance(*scene, tracks);
     camera->set_near(distance > 0 ? .01 * distance : .01);
   }
+  if (scene->has_haze() && !scene->haze().has_density()) {
+    const double across = Length(box.Size());
+    scene->mutable_haze()->set_density(across > 0 ? .2 / across : 0);
+  }
   for (v1::Light& light : *scene->mutable_lights()) {
     if (light.kind() == v1::Light::LOCAL && !light.has_range()) {
       const double reach = 2 * Length(box.Size());
       light.set_range(reach > 0 ? reach : 1);
+    }
+    if (light.shadow() && !light.has_shadow_detail()) {
+      constexpr double kTexels = 2048;  // across all that is there during the shot
+      const double across = Length(box.Size());
+      light.set_shadow_detail(across > 0 ? across / kTexels : 1);
     }
   }
 }

@@ -16,6 +16,8 @@ class LeafSet : public StreamSink {
  public:
   bool Wants(const Vec3&, const Vec3&, const Vec3&, const StreamReach&) override { return true; }
 
+  bool ReadsPlaces() const override { return true; }
+
   void Take(const StreamBatch& batch) override {
     hashes_.clear();
     for (size_t i = 0; i < batch.vertices.size(); ++i) {
@@ -26,9 +28,9 @@ class LeafSet : public StreamSink {
         hash = Mix64(hash + std::bit_cast<uint64_t>(x));
       }
       hash = Mix64(hash + std::bit_cast<uint32_t>(v.stretch));
-      if (!batch.colors.empty()) {
-        const Rgb& c = batch.colors[i];
-        for (const float x : {c.r, c.g, c.b}) hash = Mix64(hash + std::bit_cast<uint32_t>(x));
+      const Weights& place = batch.places[i];
+      for (const double x : {place.x, place.y, place.z}) {
+        hash = Mix64(hash + std::bit_cast<uint64_t>(x));
       }
       hashes_.push_back(hash);
     }

@@ -17,6 +17,7 @@ class Weight final : public PreparedFractal {
  public:
   explicit Weight(size_t bytes) : bytes_(bytes) {}
   size_t RootCount() const override { return 0; }
+  Triangle Corners(uint32_t) const override { return {}; }
   Ball Bound(size_t) const override { return {}; }
   StreamStats Stream(size_t, StreamSink&, size_t) const override { return {}; }
   Result<WeldedShape> Weld(const WeldLimits&) const override { return WeldedShape{}; }

@@ -130,7 +130,7 @@ TEST(LoadTest, DefectsOfAllKindsComeInOneRun) {
           {{"camera.fov", "900"}, {"nonsense", "1"}}),
       "--set camera.fov=900: error: camera.fov: 900 is out of range: 1 to 170\n"
       "--set nonsense=1: error: a scene has no field \"nonsense\"; there are name, output, camera, "
-      "background, ambient, lights, sea, objects, track\n"
+      "background, ambient, lights, sea, objects, track, haze\n"
       "s.scene:1:10: error: output.width: 0 is out of range: 1 to 16384\n"
       "s.scene:1:19: error: output.samples: 3 is not 1, 4 or 16\n"
       "s.scene:2:16: error: camera.eye.x: not a finite number\n"
