@@ -1,6 +1,6 @@
 #include "engine/animation/assemble.h"
 
-#include "engine/fractal/registry.h"
+#include "engine/scene/parameters.h"
 #include "engine/scene/transform.h"
 
 namespace fjord {
@@ -16,8 +16,24 @@ void Append(const v1::Color& color, double factor, Doubles* values) {
   for (const double x : {color.r(), color.g(), color.b()}) values->Add(factor * x);
 }
 
-void AssembleMaterial(const v1::Material& now, uint32_t picture_height,
-                      v1::FrameMaterial* material) {
+// The values that differ from the entry's defaults and have an effect, sorted by name.
+Result<> AssembleEntry(const google::protobuf::Message& now, google::protobuf::Message* out) {
+  const EntryKind& kind = *KindOf(now.GetDescriptor());
+  const EntryInfo* info = kind.Find(EntryName(kind, now));
+  FJORD_CHECK(info != nullptr, EntryName(kind, now));
+  std::vector<KnobDefect> defects;
+  const std::any settings = info->knobs.Read(ValuesOf(ParametersOf(now)), info->name, &defects);
+  // single values were checked with the scene; several tracks together may break a rule
+  if (!defects.empty()) {
+    return Invalid("tracks take " + defects.front().knob + " of " + std::string(info->name) +
+                   " out of bounds: " + defects.front().message);
+  }
+  SetParameters(info->knobs.Changed(settings), MutableParametersOf(out));
+  return {};
+}
+
+Result<> AssembleMaterial(const v1::Material& now, uint32_t picture_height,
+                          v1::FrameMaterial* material) {
   Append(now.color(), 1, material->mutable_color());
   material->set_ambient(now.ambient());
   material->set_diffuse(now.diffuse());
@@ -31,6 +47,12 @@ void AssembleMaterial(const v1::Material& now, uint32_t picture_height,
   material->set_vertex_color(now.vertex_color());
   material->set_line_width(now.line_width() * picture_height / 1080);
   material->set_fill(now.fill());
+  for (const v1::Stage& stage : now.stage()) {
+    v1::FrameStage* out = material->add_stage();
+    out->set_kind(stage.kind());
+    if (Result<> done = AssembleEntry(stage, out); !done) return done;
+  }
+  return {};
 }
 
 }  // namespace
@@ -75,36 +97,20 @@ void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame) {
   }
 }
 
-void AssembleObject(const v1::Object& now, uint32_t picture_height, v1::FrameObject* object) {
+Result<> AssembleObject(const v1::Object& now, uint32_t picture_height, v1::FrameObject* object) {
   const ObjectTransform transform(now.transform());
   if (!transform.IsIdentity()) {
     for (const double entry : transform.Rows()) object->add_transform(entry);
   }
-  AssembleMaterial(now.material(), picture_height, object->mutable_material());
+  return AssembleMaterial(now.material(), picture_height, object->mutable_material());
 }
 
-void AssembleFractal(const v1::Fractal& now, v1::FrameFractal* fractal) {
-  const MethodInfo* method = FindFractalMethod(now.method());
-  FJORD_CHECK(method != nullptr, now.method());
-  // knobs that the method has not are absent in the scene; its defaults stand for them
-  const FractalSettings& defaults = method->defaults;
+Result<> AssembleFractal(const v1::Fractal& now, v1::FrameFractal* fractal) {
   fractal->set_method(now.method());
   fractal->set_seed(now.seed());
-  fractal->set_h(now.has_h() ? now.h() : defaults.H);
-  fractal->set_sigma(now.has_sigma() ? now.sigma() : defaults.sigma);
-  fractal->set_amplitude(now.has_amplitude() ? now.amplitude() : defaults.amplitude);
-  fractal->set_law(static_cast<uint32_t>(now.law()));
-  fractal->set_direction(static_cast<uint32_t>(now.direction()));
-  fractal->set_variant(static_cast<uint32_t>(now.variant()));
   fractal->set_split(static_cast<uint32_t>(now.split()));
   fractal->set_max_level(now.max_level());
-  fractal->set_uniforms(now.uniforms());
-  fractal->set_move(now.has_move() ? now.move() : defaults.move);
-  fractal->set_perturb(now.has_perturb() ? now.perturb() : defaults.perturb);
-  fractal->set_stretch(now.stretch());
-  fractal->set_increments(static_cast<uint32_t>(now.increments()));
-  fractal->set_coast(now.coast());
-  fractal->set_coast_h(now.has_coast_h() ? now.coast_h() : defaults.coast_H);
+  return AssembleEntry(now, fractal);
 }
 
 }  // namespace fjord

@@ -10,7 +10,8 @@
 
 namespace fjord {
 
-FractalSettings FractalSettingsOf(const v1::FrameFractal& fractal);
+// kInvalid where there is no such method or its table refuses a value.
+Result<MethodSettings> MethodSettingsOf(const v1::FrameFractal& fractal);
 
 // The object's fractal, prepared by its method. Needs object.has_fractal() and
 // all lists written out (frame_geometry.h). `view` as in

@@ -218,9 +218,11 @@ class SceneAnimation final : public Animation {
     v1::FrameObject* message = out->add_object();
     const uint32_t height = scene().output().height();
     AssembleGeometry(pose, message, assets);
-    AssembleObject(object, height, message);
+    if (Result<> done = AssembleObject(object, height, message); !done)
+      return AtFrame(frame, object, done.error().message);
     if (!object.has_fractal()) return {};
-    AssembleFractal(object.fractal(), message->mutable_fractal());
+    if (Result<> done = AssembleFractal(object.fractal(), message->mutable_fractal()); !done)
+      return AtFrame(frame, object, done.error().message);
     const FinenessDemand demand = DemandOf(object, frame);
     *message->mutable_fractal()->mutable_fineness() =
         plan.fineness ? *plan.fineness : WorkOutFineness({&demand, 1}, RestBox(index), height);

@@ -8,7 +8,6 @@
 #include "engine/fractal/coast_batch.h"
 #include "engine/fractal/coast_pieces.h"
 #include "engine/fractal/line_walk.h"
-#include "engine/fractal/registry.h"
 
 namespace fjord {
 namespace {
@@ -259,12 +258,7 @@ class PreparedCoast : public PreparedFractal {
 Result<std::unique_ptr<PreparedFractal>> PrepareCoast(CoarseShape shape,
                                                       const FractalSettings& settings,
                                                       const AdaptiveView* view) {
-  const MethodInfo& method = *FindFractalMethod("coast");
-  const Errors errors = CheckSettings(method, settings);
-  if (!errors.empty()) {
-    return errors.front();
-  }
-  FractalSettings resolved = ResolveSettings(method, settings);
+  FractalSettings resolved = settings;
   if (resolved.law == Law::kSimilar) {
     resolved.H = HeldBackH(resolved.H);
   }

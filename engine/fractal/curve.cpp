@@ -6,7 +6,6 @@
 #include "engine/fractal/curve_chain.h"
 #include "engine/fractal/curve_rules.h"
 #include "engine/fractal/line_walk.h"
-#include "engine/fractal/registry.h"
 
 namespace fjord {
 namespace {
@@ -183,17 +182,11 @@ class PreparedCurve : public PreparedFractal {
 Result<std::unique_ptr<PreparedFractal>> PrepareCurve(CoarseShape shape,
                                                       const FractalSettings& settings,
                                                       const AdaptiveView* view) {
-  const MethodInfo& method = *FindFractalMethod("curve");
-  const Errors errors = CheckSettings(method, settings);
-  if (!errors.empty()) {
-    return errors.front();
-  }
-  const FractalSettings resolved = ResolveSettings(method, settings);
-  Result<LineRules> rules = LineRules::Make(resolved, view);
+  Result<LineRules> rules = LineRules::Make(settings, view);
   if (!rules.ok()) {
     return rules.error();
   }
-  Result<CurveChain> chain = MakeCurveChain(shape, resolved);
+  Result<CurveChain> chain = MakeCurveChain(shape, settings);
   if (!chain.ok()) {
     return chain.error();
   }

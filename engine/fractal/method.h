@@ -4,9 +4,9 @@
 //   touch the picture are never made;
 // - welded, for files and checks: shared vertices once, each with its 128-bit identity.
 //
-// A prepared object is immutable and may be used by any number of threads. A method is one file and
-// one line in registry.cpp; parser, presets, docs, tests, benches and the exactness gate loop over
-// it.
+// A prepared object is immutable and may be used by any number of threads. A method's entry is one
+// file in engine/fractal/methods and one line in registry.cpp: scene reader, presets, docs, frame
+// key, tests, benches and the exactness gate loop over the registry and its tables.
 //
 // Invariants
 // M1 A new vertex depends on the edge it halves and the settings alone: no neighbour, order,
@@ -29,6 +29,7 @@
 #include "engine/base/result.h"
 #include "engine/fractal/settings.h"
 #include "engine/geometry/mesh.h"
+#include "engine/knobs/registry.h"
 
 namespace fjord {
 
@@ -155,22 +156,21 @@ class PreparedFractal {
 
 enum class Takes : uint8_t { kTriangles = 1, kCurve = 2 };
 
-struct MethodInfo {
-  std::string_view name;
-  uint32_t version;  // in the frame key of every frame that uses it (D5)
-  std::string_view summary;
-  Takes takes;
-  FractalSettings defaults;                 // Law, Direction, Variant never kDefault here
-  std::span<const std::string_view> knobs;  // names from AllKnobs()
-  std::span<const Law> laws;
-  std::span<const Direction> directions;
-  std::span<const Variant> variants;
-  std::span<const Split> splits;
-  bool additions;  // knows Increments::kAdditions (affine, EDGE, FIXED)
+// All settings of one object.
+struct MethodSettings : FractalCommon {
+  std::any own;  // the method's struct; empty where there is no method
+};
+
+// An entry of the registry (registry.h): a name, a version, a summary and the table of the method's
+// own knobs, then what is particular to methods.
+struct MethodInfo : EntryInfo {
+  Takes takes = Takes::kTriangles;
+  // `own`: the method's struct, within its table's ranges and rules (PrepareMethod sees to it).
   // `view` is needed for Split::kAdaptive only, may be null otherwise.
   Result<std::unique_ptr<PreparedFractal>> (*prepare)(CoarseShape shape,
-                                                      const FractalSettings& settings,
-                                                      const AdaptiveView* view);
+                                                      const FractalCommon& common,
+                                                      const std::any& own,
+                                                      const AdaptiveView* view) = nullptr;
 };
 
 }  // namespace fjord

@@ -8,7 +8,6 @@
 #include "engine/base/exact_math.h"
 #include "engine/base/random.h"
 #include "engine/fractal/amount.h"
-#include "engine/fractal/registry.h"
 
 namespace fjord {
 namespace {
@@ -53,13 +52,7 @@ Result<Ok> SetFineness(const FractalSettings& settings, const AdaptiveView* view
 
 }  // namespace
 
-Result<SurfaceRules> MakeSurfaceRules(const FractalSettings& given, const AdaptiveView* view) {
-  const MethodInfo* method = FindFractalMethod("surface");
-  FJORD_CHECK(method != nullptr);
-  const FractalSettings settings = ResolveSettings(*method, given);
-  if (const Errors errors = CheckSettings(*method, settings); !errors.empty()) {
-    return errors.front();
-  }
+Result<SurfaceRules> MakeSurfaceRules(const FractalSettings& settings, const AdaptiveView* view) {
   SurfaceRules rules;
   rules.direction = settings.direction;
   rules.variant = settings.variant;

@@ -113,23 +113,19 @@ Result<Digest> PreparedKey(const v1::FrameObject& object, const AdaptiveView& vi
 }
 
 Result<std::shared_ptr<const PreparedFractal>> Prepare(const CoarseShape& shape,
-                                                       const FractalSettings& settings,
+                                                       const MethodSettings& settings,
                                                        const AdaptiveView& view) {
   Result<std::unique_ptr<PreparedFractal>> prepared = MakeError(ErrorCode::kInternal, "");
   if (settings.method.empty()) {
     prepared = PreparePlain(shape, settings.seed);
   } else {
     const MethodInfo* method = FindFractalMethod(settings.method);
-    if (method == nullptr) {
-      return Inconsistent("there is no fractal method \"" + settings.method + "\"");
-    }
-    const Errors defects = CheckSettings(*method, settings);
-    if (!defects.empty()) return defects.front();
+    FJORD_CHECK(method != nullptr, settings.method);
     if ((method->takes == Takes::kCurve) != shape.curve) {
       return Inconsistent("the method \"" + settings.method + "\" takes " +
                           (shape.curve ? "meshes, not curves" : "curves, not meshes"));
     }
-    prepared = method->prepare(shape, settings, &view);
+    prepared = PrepareMethod(shape, settings, &view);
   }
   if (!prepared) return prepared.error();
   return std::shared_ptr<const PreparedFractal>(std::move(*prepared));
@@ -156,7 +152,11 @@ Result<PreparedObject> MakePrepared(const v1::FrameObject& from, const AssetReso
     return Inconsistent("an object's points and colours must be finite and below 1e15");
   }
   object.shape = std::make_shared<const CoarseShape>(std::move(*shape));
-  if (from.has_fractal()) object.settings = FractalSettingsOf(from.fractal());
+  if (from.has_fractal()) {
+    Result<MethodSettings> settings = MethodSettingsOf(from.fractal());
+    if (!settings) return settings.error();
+    object.settings = std::move(*settings);
+  }
   auto prepared = Prepare(*object.shape, object.settings, view);
   if (!prepared) return prepared.error();
   object.prepared = std::move(*prepared);
@@ -252,7 +252,7 @@ Result<std::shared_ptr<const PreparedFractal>> PrepareObject(const BuiltFrame& f
                                                              const BuiltObject& object,
                                                              double coarser) {
   SetFloatEnvironment();
-  FractalSettings settings = object.settings;
+  MethodSettings settings = object.settings;
   settings.fineness.epsilon *= coarser;
   settings.fineness.pixels *= coarser;
   const View view = MakeView(frame.camera, frame.width, frame.height);

@@ -69,7 +69,7 @@ struct BuiltObject {
   std::shared_ptr<const PreparedFractal> prepared;
   // What `prepared` was made from; settings.method is empty for a shape without a fractal.
   std::shared_ptr<const CoarseShape> shape;
-  FractalSettings settings;
+  MethodSettings settings;
   Transform transform = kNoTransform;
   Material material;
   std::shared_ptr<const TextureChain> texture;  // null: none

@@ -1,6 +1,5 @@
 #include "engine/scene/ranges.h"
 
-#include <charconv>
 #include <map>
 #include <string_view>
 
@@ -40,6 +39,7 @@ constexpr Row kRows[] = {
     {"fjord.v1.Fractal.epsilon", {0, kLargest, true}},
     {"fjord.v1.Fractal.pixels", {0, 1e6, true}},
     {"fjord.v1.Fractal.viewing", {0, kLargest, true}},
+    {"fjord.v1.Fractal.max_level", {0, limits::kMaxLevel, false}},
     {"fjord.v1.Material.ambient", {0, 1000, false}},
     {"fjord.v1.Material.diffuse", {0, 1000, false}},
     {"fjord.v1.Material.specular", {0, 1000, false}},
@@ -49,16 +49,6 @@ constexpr Row kRows[] = {
 
 }  // namespace
 
-bool NumberRange::Holds(double value) const {
-  return value <= highest && (above ? value > lowest : value >= lowest);
-}
-
-std::string NumberRange::ToString() const {
-  const std::string low = NumberText(lowest), high = NumberText(highest);
-  if (above) return "above " + low + (highest < kLargest ? " and at most " + high : "");
-  return low + " to " + high;
-}
-
 const NumberRange* RangeOf(const google::protobuf::FieldDescriptor& field) {
   static const auto* const kTable = [] {
     auto* table = new std::map<std::string_view, const NumberRange*>();
@@ -67,16 +57,6 @@ const NumberRange* RangeOf(const google::protobuf::FieldDescriptor& field) {
   }();
   const auto found = kTable->find(field.full_name());
   return found == kTable->end() ? nullptr : found->second;
-}
-
-std::string NumberText(double value) {
-  char buffer[32];
-  const double size = value < 0 ? -value : value;
-  const bool plain = size == 0 || (size >= 1e-4 && size < 1e9);
-  const auto [end, code] =
-      std::to_chars(buffer, buffer + sizeof buffer, value,
-                    plain ? std::chars_format::fixed : std::chars_format::scientific);
-  return code == std::errc() ? std::string(buffer, end) : "?";
 }
 
 }  // namespace fjord

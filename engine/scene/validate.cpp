@@ -95,6 +95,8 @@ void CheckObject(const v1::Scene& scene, int index, const SceneShapes& shapes,
   }
   CheckKeys(scene, index, shapes, errors);
   CheckFractal(scene, index, shapes, errors);
+  for (int i = 0; i < object.material().stage_size(); ++i)
+    CheckEntry(object.material().stage(i), route.Then("material").Then("stage", i), errors);
 
   const v1::Material& material = object.material();
   const Route place = route.Then("material");

@@ -2,15 +2,6 @@
 
 namespace fjord {
 
-std::span<const StageInfo> TextureStages() { return {}; }
-
-const StageInfo* FindTextureStage(std::string_view name) {
-  for (const StageInfo& stage : TextureStages()) {
-    if (stage.name == name) return &stage;
-  }
-  return nullptr;
-}
-
 void TextureChain::Append(std::unique_ptr<TextureStage> stage) {
   stages_.push_back(std::move(stage));
 }

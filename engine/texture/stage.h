@@ -3,14 +3,13 @@
 // (geometric stages, before light) or the colour (colour stages), never anything else. Stages have
 // no state, so a sample may be shaded by any thread, tile or machine with the same bits.
 //
-// A stage is one file and one line in registry.cpp. The list is empty so far: an empty chain leaves
-// every sample as it came.
+// A stage's entry is one file in engine/texture/stages and one line in registry.cpp. The list is
+// empty so far: an empty chain leaves every sample as it came.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "engine/geometry/vec.h"
@@ -37,16 +36,6 @@ class TextureStage {
   // In place, all samples of a run; time in frames.
   virtual void Apply(std::span<SurfaceSample> samples, double time) const = 0;
 };
-
-struct StageInfo {
-  std::string_view name;
-  uint32_t version;  // in the frame key of every frame that uses it
-  StageKind kind;
-  std::string_view summary;
-};
-
-std::span<const StageInfo> TextureStages();
-const StageInfo* FindTextureStage(std::string_view name);
 
 // Stages in order. Geometric ones run before light, colour ones with it; the order within each kind
 // is kept.

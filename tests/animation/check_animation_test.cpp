@@ -5,8 +5,10 @@
 
 #include "engine/animation/coarse.h"
 #include "engine/animation/frame_geometry.h"
+#include "engine/fractal/midpoint_knobs.h"
 #include "engine/fractal/registry.h"
 #include "tests/animation/animate.h"
+#include "tests/fractal/choices.h"
 
 namespace fjord {
 namespace {
@@ -52,9 +54,9 @@ std::string Bow(double height, bool closed) {
 TEST(CheckAnimationTest, S25_NoMethodPops) {
   for (const MethodInfo& method : FractalMethods()) {
     const bool curve = method.takes == Takes::kCurve;
-    for (const Law law : method.laws) {
-      for (const Direction direction : method.directions) {
-        for (const Variant variant : method.variants) {
+    for (const Law law : test::LawsOf(method)) {
+      for (const Direction direction : test::DirectionsOf(method)) {
+        for (const Variant variant : test::VariantsOf(method)) {
           const std::string words = "law: " + std::string(LawName(law)) +
                                     " direction: " + std::string(DirectionName(direction)) +
                                     " variant: " + std::string(VariantName(variant));
@@ -191,17 +193,19 @@ TEST(CoarseTest, FacesAreCutByTheRestPose) {
 }
 
 TEST(CoarseTest, C47_SettingsArriveAsTheSceneGivesThem) {
-  const auto animation = Animate(Rising(
-      "method: \"surface\" seed: 77 H: .31 sigma: 1.5 amplitude: .2 law: SIMILAR direction: EDGE "
-      "variant: PERTURBED epsilon: .25 max_level: 9 uniforms: 5 move: .3 perturb: .4 stretch: "
-      "false "
-      "coast: true coast_H: .8"));
-  const FractalSettings settings = FractalSettingsOf(FrameOf(*animation, 3).object(0).fractal());
+  const auto settings_of = [](const std::string& fractal) {
+    const auto animation = Animate(Rising(fractal));
+    auto settings = MethodSettingsOf(FrameOf(*animation, 3).object(0).fractal());
+    EXPECT_TRUE(settings.ok());
+    return JoinMidpoint(*settings, settings->own);
+  };
+  const FractalSettings settings = settings_of(
+      "method: \"surface\" seed: 77 H: .31 sigma: 1.5 law: SIMILAR direction: EDGE variant: "
+      "PERTURBED epsilon: .25 max_level: 9 uniforms: 5 perturb: .4 coast: true coast_H: .8");
   EXPECT_EQ(settings.method, "surface");
   EXPECT_EQ(settings.seed, 77u);
   EXPECT_EQ(settings.H, .31);
   EXPECT_EQ(settings.sigma, 1.5);
-  EXPECT_EQ(settings.amplitude, .2);
   EXPECT_EQ(settings.law, Law::kSimilar);
   EXPECT_EQ(settings.direction, Direction::kEdge);
   EXPECT_EQ(settings.variant, Variant::kPerturbed);
@@ -209,11 +213,12 @@ TEST(CoarseTest, C47_SettingsArriveAsTheSceneGivesThem) {
   EXPECT_EQ(settings.fineness.epsilon, .25);
   EXPECT_EQ(settings.max_level, 9u);
   EXPECT_EQ(settings.uniforms, 5u);
-  EXPECT_EQ(settings.move, .3);
   EXPECT_EQ(settings.perturb, .4);
-  EXPECT_FALSE(settings.stretch);
   EXPECT_TRUE(settings.coast);
   EXPECT_EQ(settings.coast_H, .8);
+  EXPECT_EQ(settings_of("law: SHIH move: .3").move, .3);
+  EXPECT_EQ(settings_of("amplitude: .2").amplitude, .2);
+  EXPECT_FALSE(settings_of("stretch: false").stretch);
 }
 
 }  // namespace

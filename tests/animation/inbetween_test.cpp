@@ -198,11 +198,14 @@ TEST_P(TrackedNumberTest, W2_MidKeyEqualsTheStaticSceneWithThatValue) {
       "}\nlights { name: \"lamp\" kind: LOCAL position { z: 3 } range: 9 }\nobjects { name: "
       "\"a\" " +
       Triangle(.1) +
-      " fractal { method: \"surface\" epsilon: .01 } material { ramp { height: -1 } ramp { height: "
+      " fractal { method: \"surface\" epsilon: .01 variant: PERTURBED coast: true } material { "
+      "ramp { height: -1 } ramp { height: "
       "1 } } "
       "transform {} }\n"
       "objects { name: \"ball\" shape { primitive { kind: TORUS radius: 2 tube: .5 } } }\n"
-      "objects { name: \"line\" shape { polyline { point {} point { x: 1 } } } }\n";
+      "objects { name: \"line\" shape { polyline { point {} point { x: 1 } } } }\n"
+      "objects { name: \"old\" shape { primitive { kind: GRID } } fractal { law: SHIH epsilon: 1 } "
+      "}\n";
   const auto moving =
       Animate("camera { near: .001 up { z: 1 } eye { x: 1 y: -6 z: 3 } look_at { z: .1 } }\n" +
                   scene + "track { path: \"" + track.path +
@@ -229,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Tracked{"objects[a].fractal.H", .25, .75, .5},
                       Tracked{"objects[a].fractal.sigma", 1, 2, 1.5},
                       Tracked{"objects[a].fractal.amplitude", .25, .5, .375},
-                      Tracked{"objects[a].fractal.move", .25, .5, .375},
+                      Tracked{"objects[old].fractal.move", .25, .5, .375},
                       Tracked{"objects[a].fractal.perturb", 0, 1, .5},
                       Tracked{"objects[a].fractal.coast_H", .5, 1, .75},
                       Tracked{"objects[a].transform.translate.z", 0, 4, 2},

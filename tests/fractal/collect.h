@@ -12,7 +12,9 @@
 
 #include "engine/base/digest.h"
 #include "engine/fractal/method.h"
+#include "engine/fractal/midpoint_knobs.h"
 #include "engine/fractal/registry.h"
+#include "tests/fractal/choices.h"
 
 namespace fjord::test {
 
@@ -156,7 +158,7 @@ inline std::unique_ptr<PreparedFractal> Prepare(CoarseShape shape, const Fractal
                                                 const AdaptiveView* view = nullptr) {
   const MethodInfo* method = FindFractalMethod(settings.method);
   FJORD_CHECK(method != nullptr, settings.method);
-  auto prepared = method->prepare(std::move(shape), ResolveSettings(*method, settings), view);
+  auto prepared = PrepareMidpoint(*method, std::move(shape), settings, view);
   FJORD_CHECK(prepared.ok(), prepared.error().message);
   return std::move(prepared).value();
 }

@@ -333,7 +333,7 @@ TEST(SurfaceSplitTest, DegenerateShapesEndCleanly) {
 TEST(SurfaceSplitTest, BadInputAndLimitsAreErrors) {
   const MethodInfo& method = *FindFractalMethod("surface");
   const auto code = [&](const CoarseShape& shape, FractalSettings settings) {
-    const auto prepared = method.prepare(shape, settings, nullptr);
+    const auto prepared = PrepareMidpoint(method, shape, settings, nullptr);
     return prepared.ok() ? ErrorCode::kInternal : prepared.error().code;
   };
   EXPECT_EQ(code(Roof(), SurfaceSettings(0)), ErrorCode::kInvalid);

@@ -21,10 +21,10 @@ std::vector<Variety> Varieties() {
   static const AdaptiveView kView = ViewFromAbove(6, 60);
   std::vector<Variety> all;
   const MethodInfo& method = *FindFractalMethod("surface");
-  for (const Law law : method.laws) {
-    for (const Direction direction : method.directions) {
-      for (const Variant variant : method.variants) {
-        for (const Split split : method.splits) {
+  for (const Law law : LawsOf(method)) {
+    for (const Direction direction : DirectionsOf(method)) {
+      for (const Variant variant : VariantsOf(method)) {
+        for (const Split split : kSplits) {
           for (const bool coast : {false, true}) {
             FractalSettings settings = PixelSettings(2, 60, Vec3(0, 0, 6), coast ? .5 : 0);
             settings.law = law;

@@ -186,9 +186,7 @@ v1::FrameScene Crossing(bool orthographic, uint32_t samples) {
     v1::FrameFractal* fractal = MakeRough(line, .05, 1, .75);
     fractal->set_method("curve");
     fractal->set_seed(static_cast<uint64_t>(width));
-    fractal->set_law(2);
-    fractal->set_direction(1);
-    fractal->set_variant(2);
+    SetWords(fractal, {{"law", "SIMILAR"}, {"direction", "EDGE"}, {"variant", "CURRENT"}});
   }
   return scene;
 }

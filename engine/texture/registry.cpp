@@ -1,0 +1,21 @@
+#include "engine/texture/registry.h"
+
+namespace fjord {
+
+// One line an entry; each is the function of that name in engine/texture/stages. Append only.
+#define FJORD_STAGES(ENTRY)
+
+#define FJORD_DECLARE(name) StageInfo name();
+FJORD_STAGES(FJORD_DECLARE)
+
+Registry<StageInfo>& StageRegistry() {
+#define FJORD_MAKE(name) name(),
+  static Registry<StageInfo> registry({FJORD_STAGES(FJORD_MAKE)});
+  return registry;
+}
+
+std::span<const StageInfo> TextureStages() { return StageRegistry().entries(); }
+
+const StageInfo* FindTextureStage(std::string_view name) { return StageRegistry().Find(name); }
+
+}  // namespace fjord
