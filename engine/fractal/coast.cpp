@@ -92,7 +92,10 @@ Cut MakeCut(const LineRules& rules, const Node& node, const LineFrame& frame,
   if (cut.sealed) {
     cut.apex = cut.p;
     cut.apex.coast = false;
-    cut.apex.line.position = half.middle + (o - half.middle) * ApexShare(s, e, p, frame.plane);
+    const double inward = ApexShare(s, e, p, frame.plane);
+    cut.apex.line.position = half.middle + (o - half.middle) * inward;
+    cut.apex.line.color = half.vertex.color * static_cast<float>(1 - inward) +
+                          node.o.line.color * static_cast<float>(inward);
     cut.apex.line.id = {DrawBits(half.vertex.id.lo, 31), Mix64(half.vertex.id.hi ^ 31)};
   }
   const double share = ShareThatFits(s, e, cut.apex.line.position, half.middle, p, frame.plane);
@@ -258,7 +261,7 @@ class PreparedCoast : public PreparedFractal {
 
 Result<std::unique_ptr<PreparedFractal>> PrepareCoast(CoarseShape shape,
                                                       const FractalSettings& settings,
-                                                      const AdaptiveView* view) {
+                                                      const AdaptiveView* /*view*/) {
   const MethodInfo& method = *FindFractalMethod("coast");
   const Errors errors = CheckSettings(method, settings);
   if (!errors.empty()) {
@@ -268,7 +271,7 @@ Result<std::unique_ptr<PreparedFractal>> PrepareCoast(CoarseShape shape,
   if (resolved.law == Law::kSimilar) {
     resolved.H = HeldBackH(resolved.H);
   }
-  Result<LineRules> rules = LineRules::Make(resolved, view);
+  Result<LineRules> rules = LineRules::Make(resolved);
   if (!rules.ok()) {
     return rules.error();
   }

@@ -56,9 +56,8 @@ CoastVertex Centroid(std::span<const CoastVertex, 3> c) {
   v.line.stretch = static_cast<float>(third(static_cast<double>(c[0].line.stretch),
                                             static_cast<double>(c[1].line.stretch),
                                             static_cast<double>(c[2].line.stretch)));
-  v.line.eye_distance2 = static_cast<float>(third(static_cast<double>(c[0].line.eye_distance2),
-                                                  static_cast<double>(c[1].line.eye_distance2),
-                                                  static_cast<double>(c[2].line.eye_distance2)));
+  v.line.eye_distance2 =
+      third(c[0].line.eye_distance2, c[1].line.eye_distance2, c[2].line.eye_distance2);
   v.line.color = (c[0].line.color + c[1].line.color + c[2].line.color) / 3.0f;
   v.normal = Unit(c[0].normal + c[1].normal + c[2].normal, c[0].normal);
   return v;
@@ -147,7 +146,7 @@ Result<CoastMesh> MakeCoastMesh(const CoarseShape& shape, const FractalSettings&
     v.line.direction = Softened(outward[i] * .5);
     v.line.stretch = StretchOf(stretch[i], stretched[i]);
     const Vec3 eye = shape.rest[i] - settings.fineness.eye;
-    v.line.eye_distance2 = ClampToFloat(glm::dot(eye, eye));
+    v.line.eye_distance2 = glm::dot(eye, eye);
     if (!shape.colors.empty()) {
       v.line.color = shape.colors[i];
     }

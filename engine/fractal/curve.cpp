@@ -182,14 +182,14 @@ class PreparedCurve : public PreparedFractal {
 
 Result<std::unique_ptr<PreparedFractal>> PrepareCurve(CoarseShape shape,
                                                       const FractalSettings& settings,
-                                                      const AdaptiveView* view) {
+                                                      const AdaptiveView* /*view*/) {
   const MethodInfo& method = *FindFractalMethod("curve");
   const Errors errors = CheckSettings(method, settings);
   if (!errors.empty()) {
     return errors.front();
   }
   const FractalSettings resolved = ResolveSettings(method, settings);
-  Result<LineRules> rules = LineRules::Make(resolved, view);
+  Result<LineRules> rules = LineRules::Make(resolved);
   if (!rules.ok()) {
     return rules.error();
   }

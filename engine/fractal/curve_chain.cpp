@@ -110,7 +110,7 @@ Result<CurveChain> MakeCurveChain(const CoarseShape& shape, const FractalSetting
     v.direction = Softened(normal * .5);
     v.stretch = StretchOf(stretch, stretched);
     const Vec3 eye = shape.rest[i] - settings.fineness.eye;
-    v.eye_distance2 = ClampToFloat(glm::dot(eye, eye));
+    v.eye_distance2 = glm::dot(eye, eye);
     if (!shape.colors.empty()) {
       v.color = shape.colors[i];
     }

@@ -38,7 +38,7 @@ FractalSettings Defaults(std::string_view name, Law law, Direction direction, Va
 std::span<const MethodInfo> Methods() {
   static const MethodInfo kMethods[] = {
       {.name = "surface",
-       .version = 2,
+       .version = 3,
        .summary = "triangle meshes roughened by midpoint displacement: terrain, planets, any solid",
        .takes = Takes::kTriangles,
        .defaults = Defaults("surface", Law::kAffine, Direction::kVertex, Variant::kFixed, .7),
@@ -50,7 +50,7 @@ std::span<const MethodInfo> Methods() {
        .additions = false,
        .prepare = PrepareSurface},
       {.name = "coast",
-       .version = 2,
+       .version = 3,
        .summary = "meshes whose border becomes a coastline, cut into triangles inside it",
        .takes = Takes::kTriangles,
        .defaults = Defaults("coast", Law::kSimilar, Direction::kEdge, Variant::kPerturbed, .75),
@@ -62,7 +62,7 @@ std::span<const MethodInfo> Methods() {
        .additions = false,
        .prepare = PrepareCoast},
       {.name = "curve",
-       .version = 2,
+       .version = 3,
        .summary = "lines roughened by midpoint displacement: coastlines, ridges, charts, cracks",
        .takes = Takes::kCurve,
        .defaults = Defaults("curve", Law::kSimilar, Direction::kVertex, Variant::kPerturbed, .75),

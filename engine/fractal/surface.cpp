@@ -61,7 +61,9 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
     position_slack_ = coarse_.largest * 1e-12;
     Patch patch;
     patch.Clear(nullptr, false, kMostPoints);
-    for (const StreamVertex& v : coarse_.vertices) patch.AddVertex(v, Rgb(0));
+    for (size_t v = 0; v < coarse_.vertices.size(); ++v) {
+      patch.AddVertex(coarse_.vertices[v], Rgb(0), coarse_.eye_distance2[v]);
+    }
     for (const CoarseEdge& e : coarse_.edges) patch.AddEdge(e.a, e.b, e.length2, e.current2, 0);
     if (patch.edge_count > 0) MeasureEdges(rules_, patch, 0, patch.edge_count);
     for (size_t i = 0; i < coarse_.edges.size(); ++i) {
@@ -126,6 +128,7 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
       const uint32_t v = coarse_.triangles[root][k];
       const CoarseEdge& edge = coarse_.edges[coarse_.triangle_edges[root][k]];
       r.vertex[k] = coarse_.vertices[v];
+      r.eye_distance2[k] = coarse_.eye_distance2[v];
       if (!coarse_.colors.empty()) r.color[k] = coarse_.colors[v];
       r.length2[k] = edge.length2;
       r.current2[k] = edge.current2;
@@ -141,9 +144,19 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
     return coast ? rules_ : inland_;
   }
 
+  // The lowest level of its edges that can still be halved.
+  uint32_t LevelOf(const PatchRoot& root) const {
+    if (!rules_.staged()) return root.level;
+    uint32_t level = rules_.max_level;
+    for (const double length2 : root.length2) {
+      if (!PatchIsShort(length2)) level = std::min(level, rules_.stages.StageOf(length2) - 1);
+    }
+    return level;
+  }
+
   StreamReach ReachOf(const PatchRoot& root, const EdgeSite* sites) const {
     ReachInput input;
-    input.level = root.level;
+    input.level = LevelOf(root);
     input.stretch = 0;
     for (int k = 0; k < 3; ++k) {
       const Vec3 edge = root.vertex[(k + 1) % 3].position - root.vertex[k].position;
@@ -180,7 +193,7 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
   // About how many leaves a triangle becomes: a leaf has edges of half to once the longest short
   // length, so the square of the longest edge over that length, times 2 to 4.
   double ExpectedLeaves(const PatchRoot& root) const override {
-    if (root.level >= rules_.max_level) return 1;
+    if (LevelOf(root) >= rules_.max_level) return 1;
     double most = 0;
     for (int k = 0; k < 3; ++k) {
       if (PatchIsShort(root.length2[k])) continue;
@@ -196,13 +209,16 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
       }
       most = std::max(most, length2 * rules_.length_scale / side);
     }
-    return most * 1.25;
+    // A stage's edges are longer than its own length.
+    return most * (rules_.staged() ? .6 : 1.25);
   }
 
   void Load(const PatchRoot& root, uint32_t first_site, bool sites_kept,
             Patch& patch) const override {
     Triangle corners, edges;
-    for (size_t k = 0; k < 3; ++k) corners[k] = patch.AddVertex(root.vertex[k], root.color[k]);
+    for (size_t k = 0; k < 3; ++k) {
+      corners[k] = patch.AddVertex(root.vertex[k], root.color[k], root.eye_distance2[k]);
+    }
     for (size_t k = 0; k < 3; ++k) {
       edges[k] = patch.AddEdge(corners[k], corners[(k + 1) % 3], root.length2[k], root.current2[k],
                                first_site + root.site[k]);
@@ -218,7 +234,7 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
     Load(root, 0, rules.sites, patch);
     uint32_t level = root.level;
     PatchStep step;
-    while ((step = patch.Step(rules, level)) == PatchStep::kSplit) ++level;
+    while ((step = patch.Step(rules, level)) == PatchStep::kSplit) level = patch.level + 1;
     if (step == PatchStep::kFull) return false;
     StreamBatch batch;
     batch.vertices = {patch.vertex.data(), patch.vertex_count};
@@ -241,7 +257,7 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
     const PatchStep step = patch.Step(rules, root.level);
     FJORD_CHECK(step == PatchStep::kSplit, root.level);
     stats.midpoints += patch.vertex_count - 3;
-    stats.depth = std::max(stats.depth, root.level + 1);
+    stats.depth = std::max(stats.depth, patch.level + 1);
     for (size_t t = patch.triangles.count; t-- > 0;) {
       space.stack.push_back(ChildOf(root, patch, t, rules.sites));
     }
@@ -255,6 +271,7 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
       const uint32_t v = patch.triangles.corner[k][t];
       const uint32_t e = patch.triangles.edge[k][t] & ~Patch::kFlip;
       child.vertex[k] = patch.vertex[v];
+      if (rules_.staged()) child.eye_distance2[k] = patch.distance2[v];
       if (patch.colors) child.color[k] = patch.color[v];
       child.length2[k] = patch.edge_length2[e];
       child.current2[k] = patch.edge_current2[e];
@@ -275,11 +292,14 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
 
 Result<std::unique_ptr<PreparedFractal>> PrepareSurface(CoarseShape shape,
                                                         const FractalSettings& settings,
-                                                        const AdaptiveView* view) {
-  const Result<SurfaceRules> rules = MakeSurfaceRules(settings, view);
+                                                        const AdaptiveView* /*view*/) {
+  Result<SurfaceRules> rules = MakeSurfaceRules(settings);
   if (!rules.ok()) return rules.error();
   Result<CoarseSurface> coarse = MakeCoarseSurface(shape, *rules, settings.seed, settings.stretch);
   if (!coarse.ok()) return coarse.error();
+  double longest2 = 0;
+  for (const CoarseEdge& edge : coarse->edges) longest2 = std::max(longest2, edge.length2);
+  rules->stages.SetUnit(longest2);
   return std::unique_ptr<PreparedFractal>(
       std::make_unique<PreparedSurface>(std::move(*coarse), *rules, settings.seed));
 }

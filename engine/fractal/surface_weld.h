@@ -28,6 +28,7 @@ namespace fjord {
 // A triangle that waits to be expanded: a coarse one, or a child of one that was too large.
 struct PatchRoot {
   StreamVertex vertex[3];
+  double eye_distance2[3];
   Rgb color[3];
   double length2[3];  // as in Patch
   double current2[3];

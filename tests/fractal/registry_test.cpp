@@ -267,8 +267,6 @@ TEST(RegistryTest, BadShapesAreRefused) {
     shape.curve = !shape.curve;
     shape.triangles.clear();
     EXPECT_FALSE(method.prepare(shape, s, nullptr).ok()) << method.name;
-    s.split = Split::kAdaptive;
-    EXPECT_FALSE(method.prepare(ShapeFor(method), s, nullptr).ok()) << method.name;
   }
 }
 

@@ -44,7 +44,7 @@ TEST(SurfaceGoldenTest, D5_DigestsOfTaiwan) {
     s.uniforms = 5;
   });
   add("coast", by_epsilon, "87c840fd11384de4", [](FractalSettings& s) { s.coast = true; });
-  add("adaptive", by_pixels, "36ac25f34da9b6be",
+  add("adaptive", by_pixels, "b7a4885303d46dae",
       [](FractalSettings& s) { s.split = Split::kAdaptive; });
   add("length", by_epsilon, "acbdf2d3e2a2a43c",
       [](FractalSettings& s) { s.split = Split::kLength; });
