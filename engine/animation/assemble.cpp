@@ -1,5 +1,6 @@
 #include "engine/animation/assemble.h"
 
+#include "engine/animation/frame_key.h"
 #include "engine/fractal/registry.h"
 #include "engine/scene/transform.h"
 
@@ -41,6 +42,9 @@ void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame) {
   output->set_height(now.output().height());
   output->set_format(static_cast<uint32_t>(now.output().format()));
   output->set_samples(now.output().samples());
+  if (now.output().dither() && now.output().format() == v1::Output::PNG8) {
+    output->set_dither(kDitherVersion);
+  }
 
   v1::FrameCamera* camera = frame->mutable_camera();
   Append(now.camera().eye(), camera->mutable_eye());

@@ -7,6 +7,7 @@
 
 #include "engine/animation/coarse.h"
 #include "engine/animation/frame_geometry.h"
+#include "engine/animation/frame_key.h"
 #include "engine/animation/walk.h"
 #include "engine/base/fpenv.h"
 #include "engine/fractal/plain.h"
@@ -205,6 +206,10 @@ Result<BuiltFrame> BuildFrame(const v1::FrameScene& from, const AssetResolver* a
   if (frame.samples != 1 && frame.samples != 4 && frame.samples != 16) {
     return Inconsistent("samples must be 1, 4 or 16, not " + std::to_string(frame.samples));
   }
+  if (from.output().dither() != 0 && from.output().dither() != kDitherVersion) {
+    return Inconsistent("unknown version of the dither");
+  }
+  frame.dither = from.output().dither() != 0 && frame.format == PixelFormat::kPng8;
   const v1::FrameCamera& camera = from.camera();
   frame.camera.eye = read.Vector(camera.eye(), Vec3(0), "camera.eye");
   frame.camera.look_at = read.Vector(camera.look_at(), Vec3(0), "camera.look_at");

@@ -80,6 +80,7 @@ struct BuiltFrame {
   uint32_t height = 0;
   PixelFormat format = PixelFormat::kPng8;
   uint32_t samples = 4;  // 1, 4 or 16
+  bool dither = false;   // kPng8
   Camera camera;
   Rgb background_top{0};
   Rgb background_bottom{0};

@@ -8,6 +8,7 @@
 #include "engine/base/clamp.h"
 #include "engine/base/fpenv.h"
 #include "engine/base/parallel.h"
+#include "engine/image/dither.h"
 #include "engine/render/film.h"
 #include "engine/render/frame_setup.h"
 #include "engine/render/outline_fill.h"
@@ -189,14 +190,20 @@ class RegionRenderer {
 
   // Quantised here, so that no picture of floats is ever held whole.
   void Store(const TileRect& rect, std::span<const float> rgb) {
-    const Picture part = Quantise(static_cast<uint32_t>(rect.width),
-                                  static_cast<uint32_t>(rect.height), picture_.format, rgb);
     const size_t row = static_cast<size_t>(rect.width) * pixel_bytes_;
+    const size_t samples = static_cast<size_t>(rect.width) * 3;
     for (int32_t y = 0; y < rect.height; ++y) {
       const size_t at = (static_cast<size_t>(rect.y - region_.y + y) * picture_.width +
                          static_cast<size_t>(rect.x - region_.x)) *
                         pixel_bytes_;
-      std::memcpy(&picture_.bytes[at], &part.bytes[static_cast<size_t>(y) * row], row);
+      const std::span<const float> from = rgb.subspan(static_cast<size_t>(y) * samples, samples);
+      if (setup_.frame.dither) {
+        EncodeDithered8(static_cast<uint32_t>(rect.x), static_cast<uint32_t>(rect.y + y), from,
+                        std::span(picture_.bytes).subspan(at, row));
+        continue;
+      }
+      const Picture part = Quantise(static_cast<uint32_t>(rect.width), 1, picture_.format, from);
+      std::memcpy(&picture_.bytes[at], part.bytes.data(), row);
     }
   }
 

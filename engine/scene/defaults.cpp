@@ -29,6 +29,7 @@ void FillOutput(v1::Scene* scene) {
   if (!output->has_height()) output->set_height(540);
   if (!output->has_rate()) output->set_rate(24);
   if (!output->has_samples()) output->set_samples(4);
+  if (!output->has_dither()) output->set_dither(true);
   if (output->has_frames()) return;
   double last = 1;
   for (const v1::Object& object : scene->objects()) {

@@ -48,6 +48,21 @@ std::string KeyBits(const v1::Scene& scene, int key) {
   return bits;
 }
 
+// The dither is in the key, by its version, where it is in the picture.
+TEST(InbetweenTest, W39_OnlyEightBitPicturesAreDithered) {
+  const auto dither = [](const std::string& output) {
+    const auto animation = Animate(kStill, {{"output.dither", "true"}, {"output.format", output}});
+    return FrameOf(*animation, 1).output().dither();
+  };
+  EXPECT_EQ(FrameOf(*Animate(kStill), 1).output().dither(), kDitherVersion);
+  EXPECT_EQ(dither("PNG8"), kDitherVersion);
+  EXPECT_EQ(dither("PNG16"), 0u);
+  EXPECT_EQ(dither("EXR_HALF"), 0u);
+  const auto plain = Animate(kStill, {{"output.dither", "false"}});
+  EXPECT_EQ(FrameOf(*plain, 1).output().dither(), 0u);
+  EXPECT_NE(KeyOf(*plain, 1), KeyOf(*Animate(kStill), 1));
+}
+
 TEST(InbetweenTest, S25_AtAKeyThePointsAreTheKeysBitForBit) {
   for (const std::string ease : {"LINEAR", "SMOOTH", "IN", "OUT", "HOLD"}) {
     for (const std::string path : {"", "path { kind: STEER control { z: .3 } }",

@@ -101,7 +101,9 @@ TEST(FillTest, OrthographicOutlinesHaveNoNearPlane) {
     Put(camera->mutable_up(), {up.x, up.y, up.z});
     camera->set_view_height(9);
     camera->set_near(.01);
-    AddObject(&scene, Lake(3.5), {}, kRed);
+    v1::FrameObject* lake = AddObject(&scene, Lake(3.5), {}, kRed);
+    EXPECT_GT(CheckFill(scene), 500);
+    MakeShore(lake, .1);
     EXPECT_GT(CheckFill(scene), 500);
   }
 }

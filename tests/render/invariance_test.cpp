@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cfenv>
+#include <cstring>
 #include <optional>
 #include <thread>
 
 #include "engine/animation/inbetween.h"
 #include "engine/base/simd.h"
 #include "engine/geometry/primitives.h"
+#include "engine/image/dither.h"
 #include "engine/scene/load.h"
 #include "tests/render/plain_oracle.h"
 #include "tests/render/scenes.h"
@@ -89,6 +91,32 @@ TEST(InvarianceTest, S24_TheOrderOfTrianglesIsIrrelevant) {
     for (int k = 0; k < 3; ++k) vertex->SwapElements(i + k, j + (k + 1) % 3);
   }
   EXPECT_EQ(DigestOf(scene), wanted);
+}
+
+// A dithered picture is the 16-bit one with its offsets, and knows no tile.
+TEST(InvarianceTest, D4_DitherKnowsNoTile) {
+  v1::FrameScene scene = Mixed();
+  scene.mutable_output()->set_format(1);
+  const Picture fine = Draw(scene);
+  scene.mutable_output()->set_format(0);
+  scene.mutable_output()->set_dither(1);
+  const Picture coarse = Draw(scene);
+  for (uint32_t i = 0; i < coarse.bytes.size(); ++i) {
+    uint16_t code = 0;
+    std::memcpy(&code, &fine.bytes[2 * i], 2);
+    const uint32_t offset = DitherOffset(i / 3 % coarse.width, i / 3 / coarse.width, i % 3);
+    ASSERT_EQ(coarse.bytes[i], (code + offset) / 257) << i;
+  }
+  for (const int tile : {16, 48}) {
+    EXPECT_EQ(DigestOf(scene, {.threads = 2, .tile_size = tile}), PixelDigest(coarse).Hex());
+  }
+  const Result<RenderedFrame> part = RenderTile(scene, 37, 20, 64, 64, {.threads = 1});
+  ASSERT_TRUE(part.ok());
+  for (size_t y = 0; y < 64; ++y) {
+    EXPECT_EQ(
+        std::memcmp(&part->picture.bytes[y * 192], &coarse.bytes[((20 + y) * 150 + 37) * 3], 192),
+        0);
+  }
 }
 
 TEST(InvarianceTest, ATileIsThatPartOfTheFrame) {
@@ -225,6 +253,9 @@ TEST(InvarianceTest, AbsurdScenesAreErrors) {
   EXPECT_EQ(code(scene), ErrorCode::kLimit);
   scene = FlatScene(10, 10);
   scene.mutable_output()->set_samples(3);
+  EXPECT_EQ(code(scene), ErrorCode::kInvalid);
+  scene = FlatScene(10, 10);
+  scene.mutable_output()->set_dither(7);
   EXPECT_EQ(code(scene), ErrorCode::kInvalid);
   scene = FlatScene(10, 10);
   scene.mutable_output()->set_format(9);

@@ -72,6 +72,7 @@ TEST(DefaultsTest, C35_EveryFieldHasAValueOrAMeaningWhenAbsent) {
   EXPECT_EQ(scene.output().height(), 540u);
   EXPECT_EQ(scene.output().frames(), 1u);
   EXPECT_EQ(scene.output().samples(), 4u);
+  EXPECT_TRUE(scene.output().dither());
   EXPECT_EQ(scene.lights(0).name(), "sun");
   EXPECT_FALSE(scene.has_sea());
   const v1::Fractal& fractal = scene.objects(0).fractal();
