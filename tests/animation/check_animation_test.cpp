@@ -95,6 +95,23 @@ TEST(CheckAnimationTest, SplitByLengthIsToldNotBlamed) {
   EXPECT_THAT(check->objects[0].verdict, HasSubstr("split by frame"));
 }
 
+// How a growing triangle is cut to be welded changes at a size where its tree does not.
+TEST(CheckAnimationTest, SplitByLengthIsComparedWhileTheTreeIsTheSame) {
+  const auto key = [](int frame, const std::string& side) {
+    return "key { frame: " + std::to_string(frame) +
+           " shape { mesh { point { } point { x: " + side + " } point { y: " + side +
+           " } face { v: [1,2,3] } } } }\n";
+  };
+  const auto animation =
+      Animate("output { frames: 6 }\nobjects { name: \"flat\"\n" + key(1, "2.85") + key(6, "2.88") +
+                  "fractal { method: \"surface\" split: LENGTH epsilon: .1 } }\n",
+              {{"objects[flat].fractal.amplitude", "0"}});
+  const Result<AnimationCheck> check = CheckAnimation(*animation);
+  ASSERT_TRUE(check.ok()) << check.error().ToString();
+  EXPECT_GT(check->objects[0].vertices, 1000u);
+  EXPECT_EQ(check->objects[0].identities_change, 0u);
+}
+
 TEST(CheckAnimationTest, BigShapesAreCheckedCoarser) {
   const auto animation = Animate(Rising("method: \"surface\" epsilon: .002"));
   AnimationCheckOptions options;
