@@ -82,6 +82,7 @@ void OpenEncoder() {
 // The 1080p frame of the demo at 1-pixel fineness, PNG included.
 void DemoFrame1080(benchmark::State& state) {
   const v1::FrameScene frame = DemoFrame(4);
+  OpenEncoder();
   for (auto _ : state) {
     const Result<RenderedFrame> rendered = RenderFrame(frame, {.threads = 1, .assets = &Assets()});
     FJORD_CHECK(rendered.ok(), rendered.error().message);
