@@ -12,6 +12,7 @@
 #include "engine/base/fpenv.h"
 #include "engine/base/simd.h"
 #include "engine/formats/shape_file.h"
+#include "engine/fractal/midpoint_knobs.h"
 #include "engine/fractal/registry.h"
 #include "engine/fractal/surface.h"
 #include "engine/geometry/triangulate.h"
@@ -89,7 +90,7 @@ std::vector<Case> Cases() {
 
 std::unique_ptr<PreparedFractal> PrepareCase(const Case& one) {
   const MethodInfo* method = FindFractalMethod("surface");
-  auto prepared = method->prepare(one.shape, ResolveSettings(*method, one.settings), nullptr);
+  auto prepared = PrepareMidpoint(*method, one.shape, one.settings);
   FJORD_CHECK(prepared.ok(), prepared.error().message);
   return std::move(*prepared);
 }

@@ -18,13 +18,14 @@ UNIT_MS = {"ns": 1e-6, "us": 1e-3, "ms": 1, "s": 1e3}
 
 
 def find(folder, name):
-    """A program in a build folder, or in one that holds copies of programs side by side."""
-    for place in ("", "bench", "client"):
+    """A program in a build folder. A copy of one needs its programs and engine/image, where they lie."""
+    for place in ("bench", "client"):
         path = pathlib.Path(folder) / place / name
         if path.is_file():
             return path
-    sys.exit(f"bench: there is no {name} in {folder}; name a build folder, or one with copies of "
-             "fjord, fjord_fractal_bench, fjord_render_bench and fjord_picture_files.so")
+    sys.exit(f"bench: there is no {name} in {folder}; name a build folder, or a copy of its "
+             "bench/fjord_fractal_bench, bench/fjord_render_bench, client/fjord and "
+             "engine/image/fjord_picture_files.so")
 
 
 def figures(row):

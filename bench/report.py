@@ -68,15 +68,10 @@ def google_benchmark(name):
     for row in json.loads(out)["benchmarks"]:
         if row.get("aggregate_name") != "median":
             continue
-        kept = {"cpu_ms": row["cpu_time"] * {"ns": 1e-6, "us": 1e-3, "ms": 1, "s": 1e3}[row["time_unit"]]}
+        kept = paired.figures(row)
         if row.get("label"):
             kept["label"] = row["label"]
-        for counter, unit in (("s_per_midpoint", "ns_per_midpoint"), ("s_per_leaf", "ns_per_leaf")):
-            if counter in row:
-                kept[unit] = row[counter] * 1e9
-        if "triangles_per_s" in row:
-            kept["ns_per_triangle"] = 1e9 / row["triangles_per_s"]
-        for counter in ("frames_per_s", "triangles", "whole_triangles", "times_whole", "leaves"):
+        for counter in ("frames_per_s", "whole_triangles", "times_whole", "leaves"):
             if counter in row:
                 kept[counter] = row[counter]
         rows[row["run_name"]] = {key: round(value, 4) if isinstance(value, float) else value
@@ -253,7 +248,7 @@ def main():
     parser.add_argument("--json", action="store_true", help="one JSON document on standard output")
     parser.add_argument("--quick", action="store_true", help="the farm and the demo only")
     parser.add_argument("--baseline", metavar="FOLDER", help="compare with the programs in FOLDER "
-                        "(a build folder, or copies side by side), in turn, and nothing else")
+                        "(a build folder or a copy of one), in turn, and nothing else")
     parser.add_argument("--rounds", type=int, default=5, help="of --baseline (default 5)")
     options = parser.parse_args()
     if options.baseline:

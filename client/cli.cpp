@@ -1,6 +1,7 @@
 #include "client/cli.h"
 
 #include <exception>
+#include <new>
 #include <string>
 
 #include "client/commands/commands.h"
@@ -37,6 +38,10 @@ int RunCommandLine(int argc, char** argv) {
   }
   try {
     return run();
+  } catch (const std::bad_alloc&) {
+    return console::Fail(MakeError(ErrorCode::kLimit,
+                                   "there is not enough memory for this; ask for less, as with a "
+                                   "larger epsilon or pixels"));
   } catch (const std::exception& error) {
     return console::Fail(MakeError(ErrorCode::kInternal, error.what()));
   }

@@ -3,11 +3,14 @@
 #include <grpcpp/grpcpp.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <thread>
 #include <utility>
 
+#include "client/console.h"
 #include "engine/base/digest.h"
+#include "proto/fjord/address.h"
 #include "proto/fjord/protocol.h"
 
 namespace fjord {
@@ -15,14 +18,13 @@ namespace {
 
 constexpr std::chrono::seconds kCallLimit{20};
 constexpr std::chrono::minutes kBlobLimit{10};
+constexpr std::chrono::milliseconds kBeforeRetry{200};
 constexpr int kLargestAnswer = 64 << 20;  // a page of frames with long errors
 
-std::string AddressOr(std::string address) {
+std::string AddressOr(const std::string& address) {
   const char* from_environment = std::getenv("FJORD_SERVER");
-  if (address.empty() && from_environment != nullptr) address = from_environment;
-  if (address.empty()) return kDefaultServer;
-  if (address.find(':') == std::string::npos) address += std::strchr(kDefaultServer, ':');
-  return address;
+  if (!address.empty()) return address;
+  return from_environment != nullptr && *from_environment != 0 ? from_environment : kDefaultServer;
 }
 
 std::shared_ptr<grpc::Channel> MakeChannel(const std::string& address) {
@@ -32,12 +34,6 @@ std::shared_ptr<grpc::Channel> MakeChannel(const std::string& address) {
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
   return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
-}
-
-Error OtherVersion(const std::string& server, const std::string& said) {
-  return MakeError(ErrorCode::kUnavailable, server + " speaks another version than this fjord " +
-                                                kVersion + " (protocol " + kProtocol +
-                                                "): " + said + "; use programs of one version");
 }
 
 // A context with a deadline.
@@ -50,66 +46,70 @@ struct Call {
 
 }  // namespace
 
-Error ErrorOfStatus(const grpc::Status& status, const std::string& address) {
-  const std::string& said = status.error_message();
-  const std::string server = "the server at " + address;
-  switch (status.error_code()) {
-    case grpc::StatusCode::UNAVAILABLE:
-      return MakeError(ErrorCode::kUnavailable,
-                       "no Fjord server answers at " + address + " (" + said +
-                           "); start one with `fjord farm`, or name another with --server or "
-                           "$FJORD_SERVER");
-    case grpc::StatusCode::DEADLINE_EXCEEDED:
-      return MakeError(ErrorCode::kUnavailable,
-                       server +
-                           " did not answer in time; it may be overloaded or gone: try again, or "
-                           "name another with --server");
-    case grpc::StatusCode::UNIMPLEMENTED:
-      return OtherVersion(server, said);
-    case grpc::StatusCode::FAILED_PRECONDITION:
-      if (said.find("protocol") != std::string::npos) return OtherVersion(server, said);
-      return MakeError(ErrorCode::kInvalid, server + ": " + said);
-    case grpc::StatusCode::NOT_FOUND:
-      return MakeError(ErrorCode::kNotFound, server + ": " + said);
-    case grpc::StatusCode::INVALID_ARGUMENT:
-    case grpc::StatusCode::ALREADY_EXISTS:
-    case grpc::StatusCode::OUT_OF_RANGE:
-      return MakeError(ErrorCode::kInvalid, server + ": " + said);
-    case grpc::StatusCode::RESOURCE_EXHAUSTED:
-      return MakeError(ErrorCode::kLimit, server + ": " + said);
-    case grpc::StatusCode::CANCELLED:
-      return MakeError(ErrorCode::kCancelled, server + ": the call was ended: " + said);
-    default:
-      return MakeError(ErrorCode::kInternal, server + ": " + said + " (code " +
-                                                 std::to_string(status.error_code()) + ")");
+FarmClient::FarmClient(const std::string& address, Patience patience)
+    : address_(AddressOr(address)), patience_(patience) {
+  if (const std::string defect = AddressDefect(address_); !defect.empty()) {
+    no_address_ =
+        MakeError(ErrorCode::kUsage, (address.empty() ? "$FJORD_SERVER " : "--server ") + defect);
+    return;
   }
-}
-
-FarmClient::FarmClient(const std::string& address) : address_(AddressOr(address)) {
   const std::shared_ptr<grpc::Channel> channel = MakeChannel(address_);
   jobs_ = v1::Jobs::NewStub(channel);
   blobs_ = v1::Blobs::NewStub(channel);
 }
 
+Error FarmClient::Failure(const grpc::Status& status) const {
+  return no_address_ ? *no_address_ : ErrorOfStatus(status, address_);
+}
+
+grpc::Status FarmClient::Persist(const std::function<grpc::Status()>& call) {
+  if (no_address_) return {grpc::StatusCode::INVALID_ARGUMENT, no_address_->message};
+  const auto start = std::chrono::steady_clock::now();
+  bool said = false;
+  while (true) {
+    const grpc::Status status = call();
+    if (status.error_code() != grpc::StatusCode::UNAVAILABLE) {
+      answered_ = true;
+      return status;
+    }
+    const double patience = answered_ ? patience_.again : patience_.first;
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
+    if (waited.count() >= patience) return status;
+    if (stop_waiting_ != nullptr && stop_waiting_->load()) return status;
+    if (!said) {
+      char seconds[32];
+      std::snprintf(seconds, sizeof seconds, "%g", patience);
+      console::Note("the server at " + address_ + " does not answer; trying again for " + seconds +
+                    " s");
+    }
+    said = true;
+    std::this_thread::sleep_for(kBeforeRetry);
+  }
+}
+
 template <typename Response>
 Result<Response> FarmClient::Finished(const grpc::Status& status, Response response) const {
-  if (!status.ok()) return ErrorOfStatus(status, address_);
+  if (!status.ok()) return Failure(status);
   return response;
 }
 
 Result<v1::SubmitResponse> FarmClient::Submit(const v1::SubmitRequest& request) {
-  Call call;
   v1::SubmitResponse response;
-  const grpc::Status status = jobs_->Submit(&call.context, request, &response);
+  const grpc::Status status = Persist([&] {
+    Call call;
+    return jobs_->Submit(&call.context, request, &response);
+  });
   return Finished(status, std::move(response));
 }
 
 Result<v1::Job> FarmClient::GetJob(const std::string& job) {
-  Call call;
   v1::GetJobRequest request;
   request.set_job_id(job);
   v1::Job response;
-  const grpc::Status status = jobs_->GetJob(&call.context, request, &response);
+  const grpc::Status status = Persist([&] {
+    Call call;
+    return jobs_->GetJob(&call.context, request, &response);
+  });
   return Finished(status, std::move(response));
 }
 
@@ -118,10 +118,12 @@ Result<std::vector<v1::Job>> FarmClient::ListJobs() {
   v1::ListJobsRequest request;
   request.set_page_size(kMaxPage);
   do {
-    Call call;
     v1::ListJobsResponse response;
-    const grpc::Status status = jobs_->ListJobs(&call.context, request, &response);
-    if (!status.ok()) return ErrorOfStatus(status, address_);
+    const grpc::Status status = Persist([&] {
+      Call call;
+      return jobs_->ListJobs(&call.context, request, &response);
+    });
+    if (!status.ok()) return Failure(status);
     jobs.insert(jobs.end(), response.job().begin(), response.job().end());
     request.set_page_token(response.next_page_token());
   } while (!request.page_token().empty());
@@ -134,10 +136,12 @@ Result<std::vector<v1::Frame>> FarmClient::ListFrames(const std::string& job) {
   request.set_job_id(job);
   request.set_page_size(kMaxPage);
   for (;;) {
-    Call call;
     v1::ListFramesResponse response;
-    const grpc::Status status = jobs_->ListFrames(&call.context, request, &response);
-    if (!status.ok()) return ErrorOfStatus(status, address_);
+    const grpc::Status status = Persist([&] {
+      Call call;
+      return jobs_->ListFrames(&call.context, request, &response);
+    });
+    if (!status.ok()) return Failure(status);
     frames.insert(frames.end(), response.frame().begin(), response.frame().end());
     if (response.next_frame() <= request.from_frame()) return frames;
     request.set_from_frame(response.next_frame());
@@ -145,29 +149,36 @@ Result<std::vector<v1::Frame>> FarmClient::ListFrames(const std::string& job) {
 }
 
 Result<v1::Job> FarmClient::Command(const v1::CommandRequest& request) {
-  Call call;
   v1::Job response;
-  const grpc::Status status = jobs_->Command(&call.context, request, &response);
+  const grpc::Status status = Persist([&] {
+    Call call;
+    return jobs_->Command(&call.context, request, &response);
+  });
   return Finished(status, std::move(response));
 }
 
 Result<std::vector<v1::WorkerInfo>> FarmClient::ListWorkers() {
-  Call call;
   v1::ListWorkersResponse response;
-  const grpc::Status status = jobs_->ListWorkers(&call.context, {}, &response);
-  if (!status.ok()) return ErrorOfStatus(status, address_);
+  const grpc::Status status = Persist([&] {
+    Call call;
+    return jobs_->ListWorkers(&call.context, {}, &response);
+  });
+  if (!status.ok()) return Failure(status);
   return std::vector<v1::WorkerInfo>(response.worker().begin(), response.worker().end());
 }
 
 Result<v1::WorkerInfo> FarmClient::CommandWorker(const v1::CommandWorkerRequest& request) {
-  Call call;
   v1::WorkerInfo response;
-  const grpc::Status status = jobs_->CommandWorker(&call.context, request, &response);
+  const grpc::Status status = Persist([&] {
+    Call call;
+    return jobs_->CommandWorker(&call.context, request, &response);
+  });
   return Finished(status, std::move(response));
 }
 
 Result<> FarmClient::Watch(const std::string& job, std::chrono::milliseconds limit,
                            const std::function<bool(const v1::WatchResponse&)>& on_change) {
+  if (no_address_) return *no_address_;
   Call call(limit);
   v1::WatchRequest request;
   request.set_job_id(job);
@@ -182,7 +193,7 @@ Result<> FarmClient::Watch(const std::string& job, std::chrono::milliseconds lim
   }
   const grpc::Status status = stream->Finish();
   if (status.ok() || status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED) return Ok{};
-  return ErrorOfStatus(status, address_);
+  return Failure(status);
 }
 
 Result<size_t> FarmClient::PutMissing(const std::map<std::string, std::string>& blobs) {
@@ -190,10 +201,12 @@ Result<size_t> FarmClient::PutMissing(const std::map<std::string, std::string>& 
   for (auto it = blobs.begin(); it != blobs.end();) {
     v1::MissingRequest request;
     for (int i = 0; i < kMaxMissing && it != blobs.end(); ++i, ++it) request.add_digest(it->first);
-    Call call;
     v1::MissingResponse missing;
-    const grpc::Status status = blobs_->Missing(&call.context, request, &missing);
-    if (!status.ok()) return ErrorOfStatus(status, address_);
+    const grpc::Status status = Persist([&] {
+      Call call;
+      return blobs_->Missing(&call.context, request, &missing);
+    });
+    if (!status.ok()) return Failure(status);
     for (const std::string& digest : missing.digest()) {
       const auto blob = blobs.find(digest);
       if (blob == blobs.end()) continue;
@@ -210,41 +223,47 @@ Result<> FarmClient::Put(const std::string& digest, const std::string& bytes) {
                                             " MiB; the farm takes at most " +
                                             std::to_string(kMaxBlob >> 20));
   }
-  Call call(kBlobLimit);
-  v1::PutBlobResponse response;
-  const auto stream = blobs_->Put(&call.context, &response);
-  size_t sent = 0;
-  do {
-    v1::PutBlobRequest part;
-    if (sent == 0) {
-      part.set_digest(digest);
-      part.set_size(bytes.size());
-    }
-    const size_t size = std::min(kBlobChunk, bytes.size() - sent);
-    part.set_data(bytes.substr(sent, size));
-    sent += size;
-    if (!stream->Write(part)) break;
-  } while (sent < bytes.size());
-  stream->WritesDone();
-  const grpc::Status status = stream->Finish();
-  if (!status.ok()) return ErrorOfStatus(status, address_);
+  const grpc::Status status = Persist([&] {
+    Call call(kBlobLimit);
+    v1::PutBlobResponse response;
+    const auto stream = blobs_->Put(&call.context, &response);
+    size_t sent = 0;
+    do {
+      v1::PutBlobRequest part;
+      if (sent == 0) {
+        part.set_digest(digest);
+        part.set_size(bytes.size());
+      }
+      const size_t size = std::min(kBlobChunk, bytes.size() - sent);
+      part.set_data(bytes.substr(sent, size));
+      sent += size;
+      if (!stream->Write(part)) break;
+    } while (sent < bytes.size());
+    stream->WritesDone();
+    return stream->Finish();
+  });
+  if (!status.ok()) return Failure(status);
   return Ok{};
 }
 
 Result<std::string> FarmClient::GetBlob(const std::string& digest) {
-  Call call(kBlobLimit);
   v1::GetBlobRequest request;
   request.set_digest(digest);
-  const auto stream = blobs_->Get(&call.context, request);
   std::string bytes;
-  v1::GetBlobResponse part;
-  while (bytes.size() <= kMaxBlob && stream->Read(&part)) bytes += part.data();
-  const bool too_large = bytes.size() > kMaxBlob;
-  if (too_large) call.context.TryCancel();
-  const grpc::Status status = stream->Finish();
+  bool too_large = false;
+  const grpc::Status status = Persist([&] {
+    Call call(kBlobLimit);
+    const auto stream = blobs_->Get(&call.context, request);
+    bytes.clear();
+    v1::GetBlobResponse part;
+    while (bytes.size() <= kMaxBlob && stream->Read(&part)) bytes += part.data();
+    too_large = bytes.size() > kMaxBlob;
+    if (too_large) call.context.TryCancel();
+    return stream->Finish();
+  });
   if (too_large)
     return MakeError(ErrorCode::kLimit, "blob " + digest + " is larger than any may be");
-  if (!status.ok()) return ErrorOfStatus(status, address_);
+  if (!status.ok()) return Failure(status);
   if (Sha256Of(bytes).Hex() != digest) {
     return MakeError(ErrorCode::kIo, "what the server at " + address_ + " sent for blob " + digest +
                                          " does not match its digest; try again");

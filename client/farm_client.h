@@ -2,10 +2,12 @@
 // comes back as one error that names the server and the remedy. Not for sharing between threads.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,11 +17,23 @@
 
 namespace fjord {
 
+// Seconds that a server may be silent.
+struct Patience {
+  double first = 0;  // that has not answered this client yet
+  double again = 0;  // that has: it is being started again
+};
+
 class FarmClient {
  public:
-  // "host:port"; no port: that of kDefaultServer; empty: $FJORD_SERVER, then kDefaultServer.
-  // Connects with the first call.
-  explicit FarmClient(const std::string& address);
+  // "host:port"; empty: $FJORD_SERVER, then kDefaultServer. Connects with the first call. What is
+  // no address makes every call kUsage.
+  // A server that does not answer is asked again for so long.
+  explicit FarmClient(const std::string& address, Patience patience = {});
+
+  // Of a server that has answered before.
+  double patience_seconds() const { return patience_.again; }
+  // Waits no more once the flag is set. It must outlive this.
+  void StopWaitingOn(const std::atomic<bool>* flag) { stop_waiting_ = flag; }
 
   const std::string& address() const { return address_; }
 
@@ -45,9 +59,16 @@ class FarmClient {
  private:
   template <typename Response>
   Result<Response> Finished(const grpc::Status& status, Response response) const;
+  Error Failure(const grpc::Status& status) const;
+  // The call until it is answered, or patience ends.
+  grpc::Status Persist(const std::function<grpc::Status()>& call);
   Result<> Put(const std::string& digest, const std::string& bytes);
 
   std::string address_;
+  std::optional<Error> no_address_;
+  const Patience patience_;
+  bool answered_ = false;
+  const std::atomic<bool>* stop_waiting_ = nullptr;
   std::unique_ptr<v1::Jobs::Stub> jobs_;
   std::unique_ptr<v1::Blobs::Stub> blobs_;
 };

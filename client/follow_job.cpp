@@ -91,8 +91,7 @@ class Follower {
 
 }  // namespace
 
-Result<v1::Job> FollowJob(FarmClient& client, const std::string& job,
-                          const FollowOptions& options) {
+Result<v1::Job> FollowJob(FarmClient& client, const std::string& job) {
   Follower follower(client, job);
   Clock::time_point last_heard = Clock::now();
   bool lost = false;
@@ -109,7 +108,7 @@ Result<v1::Job> FollowJob(FarmClient& client, const std::string& job,
     if (watched.ok()) continue;
     if (watched.error().code != ErrorCode::kUnavailable || !ever) return watched.error();
     const double silent = std::chrono::duration<double>(Clock::now() - last_heard).count();
-    if (silent > options.patience_seconds) return watched.error();
+    if (silent > client.patience_seconds()) return watched.error();
     if (!lost) console::Note("the connection to " + client.address() + " is lost; trying again");
     lost = true;
     std::this_thread::sleep_for(kBeforeRetry);

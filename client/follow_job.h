@@ -7,13 +7,8 @@
 
 namespace fjord {
 
-struct FollowOptions {
-  // How long to keep trying when the server is gone: a coordinator that is started again goes on
-  // where it was.
-  double patience_seconds = 20;
-};
-
-// The job as it ended. kUnavailable after a lost connection that did not come back.
-Result<v1::Job> FollowJob(FarmClient& client, const std::string& job, const FollowOptions& options);
+// The job as it ended. A coordinator that is started again goes on where it was: a lost connection
+// is tried again for the client's patience, then kUnavailable.
+Result<v1::Job> FollowJob(FarmClient& client, const std::string& job);
 
 }  // namespace fjord

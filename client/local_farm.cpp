@@ -73,9 +73,10 @@ class LocalFarm {
   Result<> StartServer(const std::string& listen) {
     const Result<Pipe> pipe = MakePipe();
     if (!pipe.ok()) return pipe.error();
-    const Result<pid_t> child = StartChild(
-        {FindProgram("fjord-server", "server"), "--listen", listen, "--data", options_.data},
-        {-1, pipe->write_end, -1});
+    std::vector<std::string> command = {FindProgram("fjord-server", "server"), "--listen", listen,
+                                        "--data", options_.data};
+    if (!options_.budget.empty()) command.insert(command.end(), {"--budget", options_.budget});
+    const Result<pid_t> child = StartChild(command, {-1, pipe->write_end, -1});
     close(pipe->write_end);
     if (!child.ok()) {
       close(pipe->read_end);

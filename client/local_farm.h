@@ -14,6 +14,7 @@ struct LocalFarmOptions {
   int threads = 0;   // of each worker; 0: the cores shared out
   std::string data;  // the coordinator's folder; worker caches are beside it
   std::string listen;
+  std::string budget;        // the coordinator's --budget; empty: its default
   bool with_parent = false;  // end when the process that started this one ends
 };
 

@@ -122,6 +122,9 @@ Result<> RenderFrames(const LocalRenderJob& job, FrameFolder* folder, FrameProgr
       progress->FrameKept();
       continue;
     }
+    if (job.allow) {
+      if (Result<> allowed = job.allow(*frame, &assets, number); !allowed.ok()) return allowed;
+    }
     const auto start = Clock::now();
     options.assets = &assets;
     Result<RenderedFrame> rendered = RenderFrame(*frame, options);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -18,6 +19,9 @@ struct LocalRenderJob {
   uint32_t last = 0;
   int threads = 0;  // on one frame; 0: one a core
   const std::atomic<bool>* cancel = nullptr;
+  // Asked before a frame is rendered; an error ends the job. May be empty.
+  std::function<Result<>(const v1::FrameScene& frame, const AssetResolver* assets, uint32_t number)>
+      allow = {};
 };
 
 struct LocalRenderReport {

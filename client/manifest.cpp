@@ -1,11 +1,10 @@
 #include "client/manifest.h"
 
-#include <google/protobuf/util/json_util.h>
-
 #include <nlohmann/json.hpp>
 
 #include "engine/animation/frame_key.h"
 #include "engine/base/digest.h"
+#include "engine/scene/write_json.h"
 #include "proto/fjord/protocol.h"
 
 namespace fjord {
@@ -53,10 +52,7 @@ Manifest DescribeScene(const v1::Scene& scene, const std::string& scene_file,
     if (object.has_shape()) ShortenShape(object.mutable_shape());
     for (v1::Key& key : *object.mutable_key()) ShortenShape(key.mutable_shape());
   }
-  google::protobuf::util::JsonPrintOptions options;
-  options.preserve_proto_field_names = true;
-  if (!google::protobuf::util::MessageToJsonString(shown, &manifest.scene_json, options).ok())
-    manifest.scene_json.clear();
+  manifest.scene_json = SceneJson(shown);
   return manifest;
 }
 

@@ -27,6 +27,12 @@ PATTERNS = [
     (re.compile(r'^fes?et(?:round|env)$'), 'floating-point environment'),
     (re.compile(r'^(?:strtod|strtof|strtold|atof)$'), 'reads numbers by the locale'),
 ]
+# Objects that may need a symbol, each with its reason.
+ALLOWED = {
+    # nlohmann-json puts the locale's decimal point in before it calls strtod, which rounds correctly
+    ('read_json.cpp.o', 'strtod'),
+    ('write_json.cpp.o', 'strtod'),
+}
 
 
 def why(symbol):
@@ -48,7 +54,8 @@ def undefined(path):
 
 
 def check(paths):
-    return sorted({(where, symbol, why(symbol)) for path in paths for where, symbol in undefined(path) if why(symbol)})
+    return sorted({(where, symbol, why(symbol)) for path in paths for where, symbol in undefined(path)
+                   if why(symbol) and (where.split(':')[-1], symbol) not in ALLOWED})
 
 
 PLANTED = {

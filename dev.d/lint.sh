@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# lint.sh [format|sources|symbols|tidy|tidy-all|self-test|all] [BUILD]
+# lint.sh [format|sources|symbols|tidy|tidy-all|self-test|changed|--all] [BUILD]
 # The checks behind `./dev lint` and the Lint.* tests. BUILD (default build/release) is a configured
-# build folder; `symbols` and `tidy` read it. `all` (the default) is every one, tidy-all included.
+# build folder; `symbols` and `tidy` read it. `changed` (the default) is every check, but clang-tidy
+# passes over what has not changed since it was green; `--all` looks at everything anew.
 set -euo pipefail
 
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)
 root=$(dirname -- "$here")
-what=${1:-all}
+what=${1:-changed}
 build=${2:-$root/build/release}
 
 # Every C++ file of the project, from git or, in an unpacked archive, from the folders.
@@ -48,6 +49,7 @@ check_symbols() {
 self_test() {
   python3 "$here/check_sources.py" --self-test
   python3 "$here/check_symbols.py" --self-test
+  python3 "$here/green.py" --self-test
   local folder
   folder=$(mktemp -d)
   trap 'rm -rf "$folder"' RETURN
@@ -72,16 +74,17 @@ case $what in
   tidy) python3 "$here/tidy.py" "$build" ;;
   tidy-all) python3 "$here/tidy.py" "$build" --all ;;
   self-test) self_test ;;
-  all)
-    status=0
+  changed | --all)
+    status=0 anew=()
+    [[ $what == --all ]] && anew=(--anew)
     check_format || status=1
     python3 "$here/check_sources.py" "$root" || status=1
     check_symbols || status=1
-    python3 "$here/tidy.py" "$build" --all || status=1
+    python3 "$here/tidy.py" "$build" --all "${anew[@]}" || status=1
     exit $status
     ;;
   *)
-    sed -n '2,4p' "${BASH_SOURCE[0]}" >&2
+    sed -n '2,5p' "${BASH_SOURCE[0]}" >&2
     exit 2
     ;;
 esac

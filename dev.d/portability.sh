@@ -11,6 +11,8 @@
 #   --work    where to build (default build/gate)
 #   --native, --cross   only this processor's builds, or only the others'
 #   --only WORD         only the builds whose names hold WORD: clang, s390x, arm64-O3 ...
+# The short form passes over builds and runs of which nothing has changed since they were green: no
+# source, scene, golden digest, compiler, library or SIMD level (green.py). The full one never does.
 # Exit 0 equal, 1 different or not buildable, 77 with --cross alone where the foreign libraries cannot
 # be had (no network).
 set -euo pipefail
@@ -26,7 +28,7 @@ while (($#)); do
     --only) only=$2 && shift ;;
     --native) cross=0 ;;
     --cross) native=0 ;;
-    *) sed -n '2,17p' "${BASH_SOURCE[0]}" >&2 && exit 2 ;;
+    *) sed -n '2,18p' "${BASH_SOURCE[0]}" >&2 && exit 2 ;;
   esac
   shift
 done
@@ -41,6 +43,27 @@ unset FJORD_SIMD
 
 wanted() { [[ $1 == *"$only"* ]]; }
 say() { printf '%s\n' "$*" >&2; }
+
+# What the digests depend on, and how this form looks at it.
+green_key() {
+  local tools
+  tools=$(for tool in g++ clang++ aarch64-linux-gnu-g++ qemu-aarch64-static; do
+    "$tool" --version 2>/dev/null | head -n 1 || true
+  done
+  dpkg-query -W libprotobuf-dev libhwy-dev libtbb-dev libglm-dev libssl-dev 2>/dev/null || true)
+  [[ -z $probe ]] || tools+=$("$probe" --levels)$(sha256sum <"$probe")
+  python3 "$here/green.py" key gate "$form" "$native" "$cross" "$only" "$tools" -- \
+    "$root/CMakeLists.txt" "$root/cmake" "$root/engine" "$root/proto" "$root/tests/CMakeLists.txt" \
+    "$root/tests/gate" "$root/examples" "$here/portability.sh" "$here/compare_digests.py" "$here/cross.cmake"
+}
+key=''
+if [[ $form == short ]]; then
+  key=$(green_key)
+  if python3 "$here/green.py" has "$key"; then
+    say 'gate: nothing has changed since it was green'
+    exit 0
+  fi
+fi
 
 # build NAME CMAKE-ARGUMENT...: leaves $work/NAME/tests/gate/fjord_probe.
 build() {
@@ -167,3 +190,4 @@ if [[ $form == update ]]; then
 else
   python3 "$here/compare_digests.py" "$root/tests/gate/golden.txt" "$out"/*.txt
 fi
+[[ -z $key ]] || python3 "$here/green.py" note "$key"

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""clang-tidy over Fjord's sources, two at a time, remembering what has passed.
+"""clang-tidy over Fjord's sources, one a core, remembering by content what has passed (green.py).
 
-tidy.py BUILD [--all] [FILE...]
+tidy.py BUILD [--all] [--anew] [FILE...]
 BUILD holds compile_commands.json. Without files: the engine's kernels (base, geometry, fractal,
-texture, image, render), which take under two minutes on two cores; --all: engine, server, worker and
-client. A file that passed is not looked at again until it, a header it includes or .clang-tidy has
-changed (stamps in BUILD/tidy). Exit 1 if there is a finding.
+texture, image, render), which take two minutes on two cores; --all: engine, server, worker and
+client. A file that passed is not looked at again until it, a header of ours that it includes, its
+compiler flags, .clang-tidy or clang-tidy has changed; --anew looks at every one. Exit 1 if there is
+a finding.
 """
 import concurrent.futures
-import hashlib
 import json
 import os
 import pathlib
@@ -17,7 +17,10 @@ import subprocess
 import sys
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.dont_write_bytecode = True
+import green  # noqa: E402
+
+ROOT = green.ROOT
 KERNELS = ('engine/base/', 'engine/geometry/', 'engine/fractal/', 'engine/texture/', 'engine/image/',
            'engine/render/')
 ALL = ('engine/', 'server/', 'worker/', 'client/')
@@ -32,60 +35,68 @@ def project_files(path, build, seen):
     for name in INCLUDE.findall(path.read_text('utf-8', 'replace')):
         for folder in (ROOT, build / 'proto', path.parent):
             if (folder / name).is_file():
-                project_files(folder / name, build, seen)
+                project_files((folder / name).resolve(), build, seen)
                 break
     return seen
 
 
-def stamp_of(path, build):
-    sha = hashlib.sha256((ROOT / '.clang-tidy').read_bytes())
-    for used in sorted(project_files(path, build, set())):
-        sha.update(str(used).encode() + b'\0' + used.read_bytes())
-    return sha.hexdigest()
+class Tidy:
+    def __init__(self, build, anew):
+        self.build = build
+        self.anew = anew
+        version = subprocess.run(['clang-tidy', '--version'], capture_output=True, text=True, check=True)
+        self.version = version.stdout
+        # Flags by file, without the checkout's own folder: all checkouts share what has passed.
+        self.flags = {
+            pathlib.Path(e['directory'], e['file']).resolve(): e['command'].replace(str(build), 'BUILD').replace(str(ROOT), 'ROOT')
+            for e in json.loads((build / 'compile_commands.json').read_text('utf-8'))}
 
+    def key(self, path):
+        used = sorted(project_files(path, self.build, set()))
+        return green.key(['tidy', self.version, self.flags.get(path, '')], [ROOT / '.clang-tidy', *used])
 
-def look(path, build):
-    stamps = build / 'tidy'
-    stamp = stamps / stamp_of(path, build)
-    if stamp.exists():
-        return path, True, ''
-    run = subprocess.run(['clang-tidy', '--quiet', '-p', str(build), '--extra-arg=-DHWY_COMPILE_ONLY_SCALAR', str(path)], capture_output=True, text=True)
-    if run.returncode == 0:
-        stamp.touch()
-        return path, True, ''
-    return path, False, run.stdout + '\n'.join(l for l in run.stderr.splitlines() if 'error' in l)
+    def look(self, path):
+        """(passed, looked at, what it says)"""
+        key = self.key(path)
+        if not self.anew and green.has(key):
+            return True, False, ''
+        run = subprocess.run(['clang-tidy', '--quiet', '-p', str(self.build),
+                              '--extra-arg=-DHWY_COMPILE_ONLY_SCALAR', str(path)],
+                             capture_output=True, text=True, check=False)
+        if run.returncode == 0:
+            green.note(key)
+            return True, True, ''
+        errors = '\n'.join(line for line in run.stderr.splitlines() if 'error' in line)
+        return False, True, (run.stdout + errors).strip() or f'{path}: clang-tidy failed'
 
 
 def main():
-    arguments = sys.argv[1:]
-    if not arguments:
+    flags = {a for a in sys.argv[1:] if a.startswith('--')}
+    arguments = [a for a in sys.argv[1:] if a not in flags]
+    if not arguments or flags - {'--all', '--anew'}:
         sys.exit(__doc__)
     build = pathlib.Path(arguments[0]).resolve()
-    everything = '--all' in arguments
-    named = [pathlib.Path(a).resolve() for a in arguments[1:] if a != '--all']
     if not (build / 'compile_commands.json').exists():
         sys.exit(f'{build}: no compile_commands.json; configure first')
-    (build / 'tidy').mkdir(exist_ok=True)
-    known = {pathlib.Path(e['directory'], e['file']).resolve()
-             for e in json.loads((build / 'compile_commands.json').read_text())}
-    if named:
-        files = named
-    else:
-        folders = ALL if everything else KERNELS
-        files = [f for f in known if f.is_relative_to(ROOT) and
+    tidy = Tidy(build, '--anew' in flags)
+    files = [pathlib.Path(a).resolve() for a in arguments[1:]]
+    if not files:
+        folders = ALL if '--all' in flags else KERNELS
+        files = [f for f in tidy.flags if f.is_relative_to(ROOT) and
                  f.relative_to(ROOT).as_posix().startswith(folders) and f.is_file()]
     if not files:
         sys.exit('tidy: no files to look at')
     start = time.monotonic()
-    failed = 0
     # The largest first, so that none is left over at the end.
     files = sorted(set(files), key=lambda f: (-f.stat().st_size, f))
     with concurrent.futures.ThreadPoolExecutor(min(os.cpu_count() or 1, 8)) as pool:
-        for path, ok, text in pool.map(lambda f: look(f, build), files):
-            if not ok:
-                failed += 1
-                print(text.strip() or f'{path}: clang-tidy failed')
-    print(f'clang-tidy: {len(files)} files, {failed} with findings, {time.monotonic() - start:.0f} s')
+        answers = list(pool.map(tidy.look, files))
+    failed = [text for passed, _, text in answers if not passed]
+    for text in failed:
+        print(text)
+    looked = sum(1 for _, at, _ in answers if at)
+    print(f'clang-tidy: {len(files)} files, {looked} looked at, {len(failed)} with findings, '
+          f'{time.monotonic() - start:.0f} s')
     sys.exit(1 if failed else 0)
 
 

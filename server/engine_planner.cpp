@@ -1,5 +1,6 @@
 #include "server/engine_planner.h"
 
+#include "engine/animation/estimate.h"
 #include "engine/animation/frame_key.h"
 #include "engine/scene/load.h"
 
@@ -40,7 +41,8 @@ Result<std::shared_ptr<const Animation>> EnginePlanner::AnimationOf(const Digest
         return blobs_.Get(*digest, kMaxAssetBytes);
       });
   if (!loaded.ok()) return Together(loaded.errors);
-  Result<std::shared_ptr<const Animation>> animation = Animation::Make(std::move(loaded.loaded));
+  Result<std::shared_ptr<const Animation>> animation =
+      Animation::Make(std::move(loaded.loaded), &stop_);
   if (!animation.ok()) return animation;
   recent_.emplace_front(scene, *animation);
   if (recent_.size() > kAnimationsKept) recent_.pop_back();
@@ -56,8 +58,19 @@ Result<uint32_t> EnginePlanner::LastFrame(const Digest& scene) {
 Result<Digest> EnginePlanner::KeyOf(const Digest& scene, uint32_t frame) {
   const Result<std::shared_ptr<const Animation>> animation = AnimationOf(scene);
   if (!animation.ok()) return animation.error();
-  const Result<v1::FrameScene> inbetween = animation.value()->Inbetween(frame, nullptr);
+  AssetSet assets;
+  const Result<v1::FrameScene> inbetween = animation.value()->Inbetween(frame, &assets);
   if (!inbetween.ok()) return inbetween.error();
+  const v1::Scene& whole = animation.value()->scene();
+  OverBudget over;
+  const Result<> held =
+      HoldAgainstBudget(*inbetween, &assets, whole, frame_budget_, Counted::kInView,
+                        "the coordinator's --budget lifts it", &over);
+  if (!held.ok()) return held.error();
+  if (!over.message.empty()) {
+    return MakeError(ErrorCode::kLimit,
+                     "objects[" + whole.objects(over.object).name() + "]: " + over.message);
+  }
   return FrameKey(*inbetween);
 }
 

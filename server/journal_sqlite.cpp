@@ -93,8 +93,9 @@ class SqliteJournal : public Journal {
   static uint64_t Bytes(const std::string& text) { return text.size(); }
   static uint64_t Bytes(long long) { return sizeof(long long); }
   static uint64_t Bytes(double) { return sizeof(double); }
-  Error Failure(const std::string& doing, const std::exception& cause) const {
-    return MakeError(ErrorCode::kIo, doing + ": " + cause.what(), {path_});
+  Error Failure(const std::string& doing, const std::exception& cause,
+                const std::string& remedy = {}) const {
+    return MakeError(ErrorCode::kIo, doing + ": " + cause.what() + remedy, {path_});
   }
 
   std::string path_;
@@ -116,6 +117,12 @@ class SqliteJournal : public Journal {
   Statement put_key_{sql_, "INSERT OR REPLACE INTO key VALUES (:a, :b, :c, :d, :e)"};
   Statement put_worker_{sql_, "INSERT OR REPLACE INTO worker VALUES (:a, :b, :c)"};
 };
+
+// For people whose journal does not open: nothing else in the folder needs it.
+constexpr char kUnreadable[] =
+    "; see that the file is this coordinator's and that it may read and write it. Where it is "
+    "damaged, move it aside (with its -wal and -shm), or put a copy of it back: without it the "
+    "coordinator starts with no jobs, and the pictures in blobs/ stay";
 
 long long Number(auto value) { return static_cast<long long>(value); }
 
@@ -194,7 +201,7 @@ Result<> SqliteJournal::Open(const std::string& dir, const std::string& holder) 
     Migrate();
     TakeEpoch(holder);
   } catch (const std::exception& cause) {
-    return Failure("the journal cannot be opened", cause);
+    return Failure("the journal cannot be opened", cause, kUnreadable);
   }
   return {};
 }
@@ -309,7 +316,7 @@ Result<Snapshot> SqliteJournal::Load() {
       snapshot.workers.push_back({row.Text(0), row.Int(1) != 0, row.Int(2) != 0});
     });
   } catch (const std::exception& cause) {
-    return Failure("the journal cannot be read", cause);
+    return Failure("the journal cannot be read", cause, kUnreadable);
   }
   return snapshot;
 }

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
 #include "engine/base/fpenv.h"
@@ -32,6 +33,13 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--data", config.data_dir, "Folder of the journal and the store")->required();
   app.add_option("--log", level, "debug, info, warn or err")->capture_default_str();
+  std::string budget;
+  app.add_option("--budget", budget,
+                 "Triangles a frame of a job may have, by estimate, or unlimited; default 2e9")
+      ->check([](const std::string& text) -> std::string {
+        if (text == "unlimited" || std::strtod(text.c_str(), nullptr) > 0) return "";
+        return "write a number above 0, as 5e9, or unlimited";
+      });
   // Timing, for tests and unusual farms (docs/farm.md).
   fjord::server::MachineConfig& machine = config.machine;
   app.add_option("--lease-term-ms", machine.term_ms, "How long a lease lives without a renewal")
@@ -55,6 +63,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
+  if (budget == "unlimited")
+    config.frame_budget = fjord::kNoBudget;
+  else if (!budget.empty())
+    config.frame_budget = std::strtod(budget.c_str(), nullptr);
   spdlog::set_default_logger(spdlog::stderr_logger_mt("fjord-server"));
   spdlog::set_level(spdlog::level::from_str(level));
 

@@ -15,6 +15,7 @@ Planner::~Planner() {
     const std::lock_guard lock(mutex_);
     stop_ = true;
   }
+  frames_.Stop();
   wake_.notify_one();
   thread_.join();
 }
@@ -27,6 +28,11 @@ void Planner::Ask(PlanRequest request) {
   wake_.notify_one();
 }
 
+bool Planner::Stopped() {
+  const std::lock_guard lock(mutex_);
+  return stop_;
+}
+
 void Planner::Run() {
   std::unique_lock lock(mutex_);
   while (true) {
@@ -37,11 +43,13 @@ void Planner::Run() {
     lock.unlock();
     Answer answer{request.job, {}, {}};
     const Result<uint32_t> last = frames_.LastFrame(request.scene);
+    if (Stopped()) return;
     if (!last.ok()) {
       answer.unusable = last.error();
       answer_(std::move(answer));
     } else {
       for (const uint32_t frame : request.frames) {
+        if (Stopped()) return;
         answer.keys.emplace_back(frame, frames_.KeyOf(request.scene, frame));
         if (answer.keys.size() == kFirstAnswer) {
           answer_(std::move(answer));

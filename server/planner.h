@@ -21,6 +21,8 @@ class FramePlanner {
   virtual Result<uint32_t> LastFrame(const Digest& scene) = 0;
   // An error means this frame alone.
   virtual Result<Digest> KeyOf(const Digest& scene, uint32_t frame) = 0;
+  // From another thread: what is under way ends soon, and so does all that is asked later.
+  virtual void Stop() {}
 };
 
 // One thread that works through requests in order. Answers are given on that thread.
@@ -38,6 +40,7 @@ class Planner {
 
  private:
   void Run();
+  bool Stopped();
 
   FramePlanner& frames_;
   const std::function<void(Answer)> answer_;

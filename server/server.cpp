@@ -9,6 +9,7 @@
 #include <chrono>
 #include <mutex>
 
+#include "proto/fjord/address.h"
 #include "proto/fjord/protocol.h"
 #include "server/blobs_service.h"
 #include "server/data_dir.h"
@@ -85,7 +86,7 @@ Result<> ServerImpl::Start() {
   if (!snapshot.ok()) return snapshot.error();
   epoch_ = snapshot->epoch;
   if (config_.planner == nullptr) {
-    engine_planner_ = std::make_unique<EnginePlanner>(*blobs_);
+    engine_planner_ = std::make_unique<EnginePlanner>(*blobs_, config_.frame_budget);
     config_.planner = engine_planner_.get();
   }
   spdlog::info("epoch {}: {} jobs, {} pictures known, {} blobs", epoch_, snapshot->jobs.size(),
@@ -148,15 +149,11 @@ void ServerImpl::Stop() {
 }  // namespace
 
 Result<bool> IsLoopback(const std::string& address) {
-  const size_t colon = address.rfind(':');
-  const std::string port = colon == std::string::npos ? "" : address.substr(colon + 1);
-  bool digits = !port.empty() && port.size() <= 5;
-  for (const char c : port) digits = digits && c >= '0' && c <= '9';
-  if (!digits || colon == 0 || std::stoi(port) > 65535) {
-    return MakeError(ErrorCode::kUsage,
-                     "\"" + address + "\" is not HOST:PORT, as in 127.0.0.1:7433");
+  if (const std::string defect = AddressDefect(address, PortZero::kTakesAFreeOne);
+      !defect.empty()) {
+    return MakeError(ErrorCode::kUsage, "--listen " + defect);
   }
-  const std::string host = address.substr(0, colon);
+  const std::string host = address.substr(0, address.rfind(':'));
   if (host == "localhost" || host == "[::1]") return true;
   // 127.0.0.0/8, written out: a name that only begins so is not one.
   int dots = 0;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "engine/animation/estimate.h"
 #include "engine/base/result.h"
 #include "server/journal.h"
 #include "server/planner.h"
@@ -21,7 +22,8 @@ struct ServerConfig {
   std::string data_dir;
   MachineConfig machine;
   int io_threads = 4;
-  FramePlanner* planner = nullptr;  // null: the engine's. Must outlive the server.
+  double frame_budget = kFrameBudget;  // of the engine's planner
+  FramePlanner* planner = nullptr;     // null: the engine's. Must outlive the server.
   // The journal cannot be written any more, so nothing can be answered any more: end the program.
   std::function<void(const Error&)> on_failure;
 };

@@ -15,6 +15,7 @@ std::vector<const v1::File*> FilesOf(const v1::Scene& scene) {
   std::vector<const v1::File*> files;
   const auto add = [&](const v1::Shape& shape) {
     if (shape.has_file()) files.push_back(&shape.file());
+    if (shape.heights().has_file()) files.push_back(&shape.heights().file());
   };
   for (const v1::Object& object : scene.objects()) {
     add(object.shape());

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/base/fpenv.h"
+#include "proto/fjord/address.h"
 #include "proto/fjord/protocol.h"
 #include "worker/identity.h"
 #include "worker/worker.h"
@@ -33,6 +34,10 @@ int main(int argc, char** argv) {
   app.set_config("--config", "", "Read options from FILE (lines of name=value)");
   app.add_option("--server", config.server, "HOST:PORT of the coordinator")
       ->envname("FJORD_SERVER")
+      ->check([](const std::string& address) {
+        const std::string defect = fjord::AddressDefect(address);
+        return defect.empty() ? defect : defect + " (--server, $FJORD_SERVER or the config file)";
+      })
       ->capture_default_str();
   app.add_option("--threads", config.threads, "Threads on one frame; 0: one a core")
       ->check(CLI::Range(0, 1024))

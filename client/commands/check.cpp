@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "client/budget.h"
 #include "client/commands/commands.h"
 #include "client/commands/common.h"
 #include "client/console.h"
@@ -21,6 +22,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> files;
+  std::string budget;
   bool animation = false;
   bool json = false;
 };
@@ -90,25 +92,62 @@ Errors CheckMotion(const std::string& path, const Animation& animation, bool qui
   return errors;
 }
 
-Errors CheckScene(const std::string& path, const Options& options, Json* motion) {
-  OpenedScene scene;
-  Errors errors = OpenScene(path, {}, &scene);
-  if (!errors.empty() || !options.animation) return errors;
-  return CheckMotion(path, *scene.animation, options.json, motion);
+Json EstimateJson(const ObjectEstimate& estimate) {
+  return {{"leaves", estimate.leaves}, {"in_view", estimate.in_view}};
 }
 
-Errors CheckFile(const std::string& path, const Options& options, Json* motion) {
+// What the largest of some frames will make, by estimate; an error where that is too much.
+Errors CheckCost(const std::string& path, const Animation& animation, const Options& options,
+                 Json* found) {
+  const Result<double> budget = ParseBudget(options.budget, kFrameBudget);
+  if (!budget.ok()) return {budget.error()};
+  FrameEstimate worst;
+  const Result<> held = CheckBudget(animation, {animation.first_frame(), animation.last_frame()},
+                                    *budget, Counted::kInView, {path, {}}, &worst);
+  *found = EstimateJson(worst.all);
+  Json objects = Json::array();
+  for (size_t i = 0; i < worst.objects.size(); ++i) {
+    objects.push_back(EstimateJson(worst.objects[i]));
+    objects.back()["object"] = animation.scene().objects(static_cast<int>(i)).name();
+  }
+  (*found)["objects"] = std::move(objects);
+  if (!held.ok()) return {held.error()};
+  if (!options.json) {
+    console::Note(path + ": at most about " + LeavesText(worst.all.in_view) +
+                  " triangles and segments in a frame's picture, " + LeavesText(worst.all.leaves) +
+                  " in its shapes");
+  }
+  return {};
+}
+
+// What is found besides defects.
+struct Found {
+  Json motion = Json::array();
+  Json estimate;
+};
+
+Errors CheckScene(const std::string& path, const Options& options, Found* found) {
+  OpenedScene scene;
+  Errors errors = OpenScene(path, {}, &scene);
+  if (errors.empty()) errors = CheckCost(path, *scene.animation, options, &found->estimate);
+  if (!errors.empty() || !options.animation) return errors;
+  return CheckMotion(path, *scene.animation, options.json, &found->motion);
+}
+
+Errors CheckFile(const std::string& path, const Options& options, Found* found) {
   if (path.ends_with(".par")) return CheckParameters(path);
   if (ShapeFormatOf(path).ok()) return CheckShape(path);
-  return CheckScene(path, options, motion);
+  return CheckScene(path, options, found);
 }
 
 int RunCheck(const Options& options) {
+  if (const Result<double> budget = ParseBudget(options.budget, kFrameBudget); !budget.ok())
+    return console::Fail(budget.error());
   Json list = Json::array();
   int code = kExitDone;
   for (const std::string& path : options.files) {
-    Json motion = Json::array();
-    const Errors errors = CheckFile(path, options, &motion);
+    Found found;
+    const Errors errors = CheckFile(path, options, &found);
     Json defects = Json::array();
     for (const Error& error : errors) {
       code = kExitFailed;
@@ -117,7 +156,8 @@ int RunCheck(const Options& options) {
       if (!options.json) console::Fail(error);
     }
     list.push_back({{"file", path}, {"good", errors.empty()}, {"defects", std::move(defects)}});
-    if (options.animation) list.back()["animation"] = std::move(motion);
+    if (!found.estimate.is_null()) list.back()["estimate"] = std::move(found.estimate);
+    if (options.animation) list.back()["animation"] = std::move(found.motion);
     if (errors.empty() && !options.json) console::Note(path + ": good");
   }
   if (options.json) {
@@ -138,6 +178,7 @@ void AddCheck(CLI::App& app, Run* run) {
       ->required();
   command->add_flag("--animation", options->animation,
                     "Make every frame's shapes too: the same vertices in each, and no jumps");
+  AddBudget(command, &options->budget);
   command->add_flag("--json", options->json, "A list as JSON on standard output");
   command->footer(
       "A defect is a line FILE:LINE:COLUMN: error: what is wrong. Exit code 1 where there is "

@@ -5,12 +5,16 @@
 #include "client/console.h"
 #include "client/exit_code.h"
 #include "client/local_farm.h"
+#include "proto/fjord/address.h"
 #include "proto/fjord/protocol.h"
 
 namespace fjord {
 namespace {
 
 int RunFarm(const LocalFarmOptions& options) {
+  if (const std::string defect = AddressDefect(options.listen, PortZero::kTakesAFreeOne);
+      !defect.empty())
+    return console::Fail(MakeError(ErrorCode::kUsage, "--listen " + defect));
   const Result<> ran = RunLocalFarm(options, [](const std::string& address) {
     const Result<> printed = console::Print("listening on " + address + "\n");
     if (!printed.ok()) console::Fail(printed.error());
@@ -36,6 +40,9 @@ void AddFarm(CLI::App& app, Run* run) {
       ->capture_default_str();
   command->add_option("--listen", options->listen, "HOST:PORT; port 0 takes a free one")
       ->capture_default_str();
+  command->add_option(
+      "--budget", options->budget,
+      "Triangles a frame of a job may have, by estimate, or unlimited; default 2e9");
   command->add_flag("--with-parent", options->with_parent, "End when the starting process ends");
   command->footer(
       "Prints the address when it is ready. What dies is started again; a job goes on where it "

@@ -20,7 +20,8 @@ struct Options {
 };
 
 int RunFetch(const Options& options) {
-  FarmClient client(options.farm.server);
+  FarmClient client(options.farm.server, options.farm.Waiting());
+  client.StopWaitingOn(&CatchInterrupts());
   const Result<FetchReport> report =
       FetchJob(client, options.job, options.folder, &CatchInterrupts());
   if (!report.ok()) return console::Fail(report.error());
@@ -51,6 +52,7 @@ void AddFetch(CLI::App& app, Run* run) {
   command->add_option("JOB", options->job, "Job id, as submit prints it")->required();
   command->add_option("-o,--output", options->folder, "Folder for frames and manifest.json")
       ->required();
+  AddPatience(command, &options->farm);
   AddFarmOptions(command, &options->farm);
   command->footer(
       "Frames that are there already are kept; exit code 1 while frames are missing.\n\n"

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/budget.h"
 #include "client/commands/commands.h"
 #include "client/commands/common.h"
 #include "client/console.h"
@@ -11,10 +12,14 @@
 #include "engine/image/codec.h"
 #include "engine/render/build.h"
 #include "engine/render/frame_renderer.h"
+#include "engine/render/places.h"
 #include "engine/render/view.h"
 
 namespace fjord {
 namespace {
+
+// All of it is kept in memory, about 100 bytes a triangle.
+constexpr double kWeldBudget = 1e8;
 
 struct Options {
   std::string scene;
@@ -22,6 +27,7 @@ struct Options {
   std::string output;
   std::string object;
   std::vector<std::string> sets;
+  std::string budget;
   uint64_t max_points = WeldLimits().max_points;
 };
 
@@ -41,6 +47,15 @@ void AppendMesh(Mesh part, const Transform& transform, bool keep_colors, Mesh* w
   whole->colors.insert(whole->colors.end(), part.colors.begin(), part.colors.end());
 }
 
+std::vector<Transform> PlacesOf(const BuiltObject& object) {
+  if (object.placements.empty()) return {object.transform};
+  std::vector<Transform> places;
+  for (const Transform& placement : object.placements) {
+    places.push_back(Composed(placement, object.transform));
+  }
+  return places;
+}
+
 // All chosen objects of the frame, fractalized, in the scene's space.
 Result<ShapeFile> Weld(const BuiltFrame& frame, const v1::Scene& scene, const Options& options) {
   ShapeFile shape;
@@ -57,13 +72,24 @@ Result<ShapeFile> Weld(const BuiltFrame& frame, const v1::Scene& scene, const Op
       return MakeError(welded.error().code, "object " + name + ": " + welded.error().message,
                        {options.scene, 0, 0});
     }
-    if (welded->curve) {
-      Polyline curve{{}, welded->closed};
-      for (const Vec3& point : welded->mesh.points)
-        curve.points.push_back(Apply(object.transform, point));
-      shape.curves.push_back(std::move(curve));
-    } else {
-      AppendMesh(std::move(welded->mesh), object.transform, all_colored, &shape.mesh);
+    const std::vector<Transform> places = PlacesOf(object);
+    if (welded->mesh.points.size() * places.size() > options.max_points) {
+      return MakeError(ErrorCode::kLimit,
+                       "object " + name + ": " + std::to_string(places.size()) +
+                           " placements have more than " + std::to_string(options.max_points) +
+                           " points together",
+                       {options.scene, 0, 0});
+    }
+    for (const Transform& place : places) {
+      if (welded->curve) {
+        Polyline curve{{}, welded->closed};
+        for (const Vec3& point : welded->mesh.points) curve.points.push_back(Apply(place, point));
+        shape.curves.push_back(std::move(curve));
+      } else if (&place == &places.back()) {
+        AppendMesh(std::move(welded->mesh), place, all_colored, &shape.mesh);
+      } else {
+        AppendMesh(welded->mesh, place, all_colored, &shape.mesh);
+      }
     }
   }
   return shape;
@@ -86,6 +112,8 @@ int RunFractalize(const Options& options) {
   if (!format.ok()) return console::Fail(format.error());
   const Result<std::vector<Setting>> settings = ParseSettings(options.sets);
   if (!settings.ok()) return console::Fail(settings.error());
+  const Result<double> budget = ParseBudget(options.budget, kWeldBudget);
+  if (!budget.ok()) return console::Fail(budget.error());
   OpenedScene scene;
   if (const Errors errors = OpenScene(options.scene, *settings, &scene); !errors.empty())
     return console::Fail(errors);
@@ -99,6 +127,10 @@ int RunFractalize(const Options& options) {
   AssetSet assets;
   const Result<v1::FrameScene> frame = scene.animation->Inbetween(options.frame, &assets);
   if (!frame.ok()) return console::Fail(InScene(frame.error(), options.scene));
+  if (const Result<> held = CheckFrameBudget(*scene.animation, *frame, &assets, options.frame,
+                                             *budget, Counted::kWhole, {options.scene, *settings});
+      !held.ok())
+    return console::Fail(held.error());
   const Result<BuiltFrame> built = BuildFrame(*frame, &assets);
   if (!built.ok()) return console::Fail(InScene(built.error(), options.scene));
   const Result<ShapeFile> shape = Weld(*built, scene.animation->scene(), options);
@@ -134,6 +166,7 @@ void AddFractalize(CLI::App& app, Run* run) {
   command->add_option("--object", options->object, "This object only; default all together");
   command->add_option("--max-points", options->max_points, "Give up beyond so many points")
       ->capture_default_str();
+  AddBudget(command, &options->budget, "1e8");
   command
       ->add_option("--set", options->sets, "path=value, instead of what the scene says; repeatable")
       ->allow_extra_args(false);

@@ -1,7 +1,5 @@
 #include <google/protobuf/descriptor.h>
 
-#include <algorithm>
-#include <cctype>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,8 +8,8 @@
 
 #include "client/commands/commands.h"
 #include "client/console.h"
+#include "client/entry_docs.h"
 #include "client/exit_code.h"
-#include "engine/fractal/registry.h"
 #include "fjord/v1/scene.pb.h"
 
 namespace fjord {
@@ -22,6 +20,8 @@ using Json = nlohmann::ordered_json;
 struct Options {
   std::string name;
   bool json = false;
+  bool markdown = false;
+  bool schema = false;
 };
 
 // The lists of words a scene may use, from the one definition.
@@ -78,51 +78,12 @@ std::vector<WordList> WordLists() {
   };
 }
 
-// "DIRECTION" names of settings.h are those of scene.proto; 0 is the default.
-template <typename Enum>
-std::string WordOf(const google::protobuf::EnumDescriptor* words, Enum value) {
-  const auto* word = words->FindValueByNumber(static_cast<int>(value));
-  return word == nullptr ? "?" : word->name();
-}
-
-template <typename Enum>
-Json WordsOf(const google::protobuf::EnumDescriptor* words, std::span<const Enum> values) {
-  Json list = Json::array();
-  for (const Enum value : values) list.push_back(WordOf(words, value));
-  return list;
-}
-
-Json DescribeMethod(const MethodInfo& method) {
-  const FractalSettings& defaults = method.defaults;
-  Json knobs = Json::array();
-  for (const Knob& knob : AllKnobs()) {
-    if (std::find(method.knobs.begin(), method.knobs.end(), knob.name) == method.knobs.end())
-      continue;
-    knobs.push_back({{"name", knob.name},
-                     {"default", defaults.*knob.value},
-                     {"lowest", knob.lowest},
-                     {"highest", knob.highest},
-                     {"effect", knob.effect}});
-  }
-  return {{"name", method.name},
-          {"version", method.version},
-          {"summary", method.summary},
-          {"takes", method.takes == Takes::kCurve ? "a curve" : "triangles"},
-          {"laws", WordsOf(v1::Fractal::Law_descriptor(), method.laws)},
-          {"directions", WordsOf(v1::Fractal::Direction_descriptor(), method.directions)},
-          {"variants", WordsOf(v1::Fractal::Variant_descriptor(), method.variants)},
-          {"defaults",
-           {{"law", WordOf(v1::Fractal::Law_descriptor(), defaults.law)},
-            {"direction", WordOf(v1::Fractal::Direction_descriptor(), defaults.direction)},
-            {"variant", WordOf(v1::Fractal::Variant_descriptor(), defaults.variant)}}},
-          {"knobs", knobs}};
-}
-
 Json AllPresets() {
   Json all;
-  Json methods = Json::array();
-  for (const MethodInfo& method : FractalMethods()) methods.push_back(DescribeMethod(method));
-  all["methods"] = std::move(methods);
+  for (const EntryKind& kind : EntryKinds()) {
+    Json& entries = all[std::string(kind.name)] = Json::array();
+    for (const EntryInfo* info : kind.entries()) entries.push_back(EntryJson(*info));
+  }
   for (const WordList& list : WordLists()) {
     Json words = Json::array();
     for (int i = 0; i < list.words->value_count(); ++i) {
@@ -136,36 +97,9 @@ Json AllPresets() {
   return all;
 }
 
-std::string Shortest(const Json& number) { return number.dump(); }
-
-std::string Joined(const Json& words) {
-  std::string text;
-  for (const Json& word : words) text += (text.empty() ? "" : ", ") + word.get<std::string>();
-  return text;
-}
-
 std::string Padded(std::string text, size_t width) {
   if (text.size() < width) text.append(width - text.size(), ' ');
   return text + " ";
-}
-
-std::string MethodText(const Json& method) {
-  std::string text = method["name"].get<std::string>() + "  (version " + method["version"].dump() +
-                     ", takes " + method["takes"].get<std::string>() + ")\n  " +
-                     method["summary"].get<std::string>() + "\n";
-  for (const char* list : {"laws", "directions", "variants"})
-    text += "  " + Padded(list, 11) + Joined(method[list]) + "\n";
-  const Json& defaults = method["defaults"];
-  text += "  by default  " + defaults["law"].get<std::string>() + ", " +
-          defaults["direction"].get<std::string>() + ", " + defaults["variant"].get<std::string>() +
-          "\n";
-  for (const Json& knob : method["knobs"]) {
-    text += "  " + Padded(knob["name"].get<std::string>(), 11) +
-            Padded(Shortest(knob["default"]), 7) +
-            Padded(Shortest(knob["lowest"]) + " .. " + Shortest(knob["highest"]), 16) +
-            knob["effect"].get<std::string>() + "\n";
-  }
-  return text;
 }
 
 std::string ListText(const std::string& name, const Json& list) {
@@ -176,31 +110,42 @@ std::string ListText(const std::string& name, const Json& list) {
   return text;
 }
 
-int RunPresets(const Options& options) {
+Result<std::string> PresetsText(const Options& options) {
+  if (options.schema) return SceneSchema().dump(1) + "\n";
   const Json all = AllPresets();
   Json chosen;
-  std::string text;
-  for (const Json& method : all["methods"]) {
-    if (options.name.empty() || options.name == "methods" || options.name == method["name"]) {
-      text += MethodText(method) + "\n";
-      if (options.name == method["name"]) chosen = method;
+  std::string text, names;
+  for (const EntryKind& kind : EntryKinds()) {
+    const bool whole = options.name.empty() || options.name == kind.name;
+    names.append(" ").append(kind.name);
+    if (options.markdown && whole) text += KindMarkdown(kind);
+    if (options.name == kind.name) chosen = all[std::string(kind.name)];
+    for (const EntryInfo* info : kind.entries()) {
+      names.append(" ").append(info->name);
+      if (options.name == info->name) chosen = EntryJson(*info);
+      if (!options.markdown && (whole || options.name == info->name))
+        text += EntryText(kind, *info) + "\n";
     }
   }
-  for (const auto& [name, list] : all.items()) {
-    if (options.name == name) chosen = list;
-    if (name != "methods" && (options.name.empty() || options.name == name))
-      text += ListText(name, list) + "\n";
+  for (const WordList& list : WordLists()) {
+    names.append(" ").append(list.name);
+    if (options.name == list.name) chosen = all[list.name];
+    if (!options.markdown && (options.name.empty() || options.name == list.name))
+      text += ListText(list.name, all[list.name]) + "\n";
   }
   if (options.name.empty()) chosen = all;
-  if (text.empty()) {
-    std::string names;
-    for (const Json& method : all["methods"]) names += " " + method["name"].get<std::string>();
-    for (const auto& [name, list] : all.items()) names += " " + name;
-    return console::Fail(MakeError(ErrorCode::kUsage,
-                                   "there is no preset '" + options.name + "'; there are" + names));
+  if (text.empty() && chosen.is_null()) {
+    return MakeError(ErrorCode::kUsage,
+                     "there is no preset '" + options.name + "'; there are" + names);
   }
-  text.pop_back();
-  const Result<> printed = console::Print(options.json ? chosen.dump(1) + "\n" : text);
+  if (!text.empty()) text.pop_back();
+  return options.json ? chosen.dump(1) + "\n" : text;
+}
+
+int RunPresets(const Options& options) {
+  const Result<std::string> text = PresetsText(options);
+  if (!text) return console::Fail(text.error());
+  const Result<> printed = console::Print(*text);
   return printed.ok() ? kExitDone : console::Fail(printed.error());
 }
 
@@ -210,13 +155,22 @@ void AddPresets(CLI::App& app, Run* run) {
   CLI::App* command =
       app.add_subcommand("presets", "Show methods, their knobs, and the words a scene may use");
   const auto options = std::make_shared<Options>();
-  command->add_option("NAME", options->name, "One method or list; default all");
-  command->add_flag("--json", options->json, "JSON on standard output");
+  command->add_option("NAME", options->name,
+                      "One kind of entry, one entry or one list of words; default all");
+  CLI::Option* json = command->add_flag("--json", options->json, "JSON on standard output");
+  CLI::Option* markdown =
+      command->add_flag("--markdown", options->markdown, "Tables for the documentation");
+  CLI::Option* schema = command->add_flag("--schema", options->schema,
+                                          "A JSON Schema of scenes in JSON, for editors");
+  json->excludes(markdown)->excludes(schema);
+  markdown->excludes(schema);
   command->footer(
       "Knobs are shown with default, range and what one sees when the knob alone is turned up.\n\n"
       "Examples:\n"
       "  fjord presets\n"
       "  fjord presets surface\n"
+      "  fjord presets fractal --json\n"
+      "  fjord presets --schema > scene.schema.json\n"
       "  fjord presets easing");
   command->callback([options, run] { *run = [options] { return RunPresets(*options); }; });
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "client/budget.h"
 #include "client/commands/commands.h"
 #include "client/commands/common.h"
 #include "client/console.h"
@@ -22,6 +23,7 @@ struct Options {
   std::string frames;
   std::string size;
   std::vector<std::string> sets;
+  std::string budget;
   int threads = 0;
   bool json = false;
 };
@@ -48,6 +50,8 @@ int RunRender(const Options& options) {
   if (!range.ok()) return console::Fail(range.error());
   const Result<std::vector<Setting>> settings = SettingsOf(options.sets, options.size);
   if (!settings.ok()) return console::Fail(settings.error());
+  const Result<double> budget = ParseBudget(options.budget, kFrameBudget);
+  if (!budget.ok()) return console::Fail(budget.error());
   OpenedScene scene;
   if (const Errors errors = OpenScene(options.scene, *settings, &scene); !errors.empty())
     return console::Fail(errors);
@@ -55,6 +59,10 @@ int RunRender(const Options& options) {
   range = WithinAnimation(*range, animation.first_frame(), animation.last_frame(), options.scene);
   if (!range.ok()) return console::Fail(range.error());
 
+  const SceneOrigin origin{options.scene, *settings};
+  if (const Result<> held = CheckBudget(animation, *range, *budget, Counted::kInView, origin);
+      !held.ok())
+    return console::Fail(held.error());
   const auto format = static_cast<PixelFormat>(animation.scene().output().format());
   Result<std::unique_ptr<FrameFolder>> folder = FrameFolder::Open(
       options.folder, DescribeScene(animation.scene(), options.scene, scene.digest),
@@ -63,8 +71,16 @@ int RunRender(const Options& options) {
 
   const auto start = std::chrono::steady_clock::now();
   LocalRenderReport report;
-  const LocalRenderJob job{scene.animation, range->first, range->last, options.threads,
-                           &CatchInterrupts()};
+  const LocalRenderJob job{
+      scene.animation,
+      range->first,
+      range->last,
+      options.threads,
+      &CatchInterrupts(),
+      [&](const v1::FrameScene& frame, const AssetResolver* assets, uint32_t number) {
+        return CheckFrameBudget(animation, frame, assets, number, *budget, Counted::kInView,
+                                origin);
+      }};
   const uint32_t total = range->last - range->first + 1;
   Result<> rendered;
   {
@@ -97,6 +113,7 @@ void AddRender(CLI::App& app, Run* run) {
   command
       ->add_option("--set", options->sets, "path=value, instead of what the scene says; repeatable")
       ->allow_extra_args(false);
+  AddBudget(command, &options->budget);
   command->add_flag("--json", options->json, "A summary as JSON on standard output");
   command->footer(
       "Frames that are there already, made under the same frame key, are kept: after Ctrl-C the "

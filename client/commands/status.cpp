@@ -49,7 +49,7 @@ nlohmann::ordered_json FrameJson(const v1::Frame& frame) {
 }
 
 int RunStatus(const Options& options) {
-  FarmClient client(options.farm.server);
+  FarmClient client(options.farm.server, options.farm.Waiting());
   const Result<v1::Job> job = client.GetJob(options.job);
   if (!job.ok()) return console::Fail(job.error());
   std::vector<v1::Frame> frames;
@@ -76,6 +76,7 @@ void AddStatus(CLI::App& app, Run* run) {
   const auto options = std::make_shared<Options>();
   command->add_option("JOB", options->job, "Job id, as submit prints it")->required();
   command->add_flag("--frames", options->frames, "With --json: every frame, too");
+  AddPatience(command, &options->farm);
   AddFarmOptions(command, &options->farm);
   command->footer(
       "Examples:\n"

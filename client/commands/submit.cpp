@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "client/budget.h"
 #include "client/commands/commands.h"
 #include "client/commands/common.h"
 #include "client/commands/farm_options.h"
@@ -31,8 +32,8 @@ struct Options {
   std::string request_id;
   double verify = 0;
   std::string after;
+  std::string budget;
   bool wait = false;
-  FollowOptions follow;
 };
 
 std::string RandomId() {
@@ -73,12 +74,21 @@ int RunSubmit(const Options& options) {
   if (!range.ok()) return console::Fail(range.error());
   const Result<std::vector<Setting>> settings = SettingsOf(options.sets, options.size);
   if (!settings.ok()) return console::Fail(settings.error());
+  const Result<double> budget = ParseBudget(options.budget, kFrameBudget);
+  if (!budget.ok()) return console::Fail(budget.error());
   LoadResult loaded = LoadSceneFile(options.scene, *settings);
   if (!loaded.ok()) return console::Fail(loaded.errors);
   range = WithinAnimation(*range, 1, loaded.loaded.scene.output().frames(), options.scene);
   if (!range.ok()) return console::Fail(range.error());
 
-  FarmClient client(options.farm.server);
+  if (*budget < kNoBudget) {
+    const auto animation = Animation::Make(loaded.loaded);
+    if (!animation.ok()) return console::Fail(InScene(animation.error(), options.scene));
+    const Result<> held =
+        CheckBudget(**animation, *range, *budget, Counted::kInView, {options.scene, *settings});
+    if (!held.ok()) return console::Fail(held.error());
+  }
+  FarmClient client(options.farm.server, options.farm.Waiting());
   const Result<v1::SubmitResponse> submitted =
       Submit(options, client, std::move(loaded.loaded), *range);
   if (!submitted.ok()) return console::Fail(submitted.error());
@@ -90,7 +100,7 @@ int RunSubmit(const Options& options) {
   int code = kExitDone;
   nlohmann::ordered_json json = {{"id", job}, {"existed", submitted->existed()}};
   if (options.wait) {
-    const Result<v1::Job> ended = FollowJob(client, job, options.follow);
+    const Result<v1::Job> ended = FollowJob(client, job);
     if (ended.ok()) {
       json["job"] = JobJson(*ended);
       code = ExitCodeOfJob(ended->state());
@@ -126,11 +136,9 @@ void AddSubmit(CLI::App& app, Run* run) {
   command->add_option("--verify", options->verify, "Share of frames rendered twice and compared")
       ->check(CLI::Range(0., 1.));
   command->add_option("--after", options->after, "Wait until this job is done");
+  AddBudget(command, &options->budget);
   command->add_flag("--wait", options->wait, "Follow the job to its end");
-  command
-      ->add_option("--patience", options->follow.patience_seconds,
-                   "Seconds to wait for a server that went away")
-      ->check(CLI::Range(0., 86400.));
+  AddPatience(command, &options->farm);
   AddFarmOptions(command, &options->farm);
   command->footer(
       "Examples:\n"

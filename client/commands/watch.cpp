@@ -15,12 +15,11 @@ namespace {
 struct Options {
   FarmOptions farm;
   std::string job;
-  FollowOptions follow;
 };
 
 int RunWatch(const Options& options) {
-  FarmClient client(options.farm.server);
-  const Result<v1::Job> ended = FollowJob(client, options.job, options.follow);
+  FarmClient client(options.farm.server, options.farm.Waiting());
+  const Result<v1::Job> ended = FollowJob(client, options.job);
   if (!ended.ok()) return console::Fail(ended.error());
   if (options.farm.json) {
     if (const Result<> printed = console::Print(JobJson(*ended).dump(1) + "\n"); !printed.ok())
@@ -36,10 +35,7 @@ void AddWatch(CLI::App& app, Run* run) {
   CLI::App* command = app.add_subcommand("watch", "Follow a job: frames, workers, time left");
   const auto options = std::make_shared<Options>();
   command->add_option("JOB", options->job, "Job id, as submit prints it")->required();
-  command
-      ->add_option("--patience", options->follow.patience_seconds,
-                   "Seconds to wait for a server that went away")
-      ->check(CLI::Range(0., 86400.));
+  AddPatience(command, &options->farm);
   AddFarmOptions(command, &options->farm);
   command->footer(
       "Ends with the job: exit code 0 when it is done, 1 when it failed or was cancelled. On a "

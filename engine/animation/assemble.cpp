@@ -1,7 +1,10 @@
 #include "engine/animation/assemble.h"
 
-#include "engine/fractal/registry.h"
+#include "engine/animation/frame_key.h"
+#include "engine/scene/parameters.h"
 #include "engine/scene/transform.h"
+#include "engine/texture/registry.h"
+#include "engine/texture/uv_map.h"
 
 namespace fjord {
 namespace {
@@ -16,8 +19,24 @@ void Append(const v1::Color& color, double factor, Doubles* values) {
   for (const double x : {color.r(), color.g(), color.b()}) values->Add(factor * x);
 }
 
-void AssembleMaterial(const v1::Material& now, uint32_t picture_height,
-                      v1::FrameMaterial* material) {
+// The values that differ from the entry's defaults and have an effect, sorted by name.
+Result<> AssembleEntry(const google::protobuf::Message& now, google::protobuf::Message* out) {
+  const EntryKind& kind = *KindOf(now.GetDescriptor());
+  const EntryInfo* info = kind.Find(EntryName(kind, now));
+  FJORD_CHECK(info != nullptr, EntryName(kind, now));
+  std::vector<KnobDefect> defects;
+  const std::any settings = info->knobs.Read(ValuesOf(ParametersOf(now)), info->name, &defects);
+  // single values were checked with the scene; several tracks together may break a rule
+  if (!defects.empty()) {
+    return Invalid("tracks take " + defects.front().knob + " of " + std::string(info->name) +
+                   " out of bounds: " + defects.front().message);
+  }
+  SetParameters(info->knobs.Changed(settings), MutableParametersOf(out));
+  return {};
+}
+
+Result<> AssembleMaterial(const v1::Material& now, uint32_t picture_height,
+                          v1::FrameMaterial* material) {
   Append(now.color(), 1, material->mutable_color());
   material->set_ambient(now.ambient());
   material->set_diffuse(now.diffuse());
@@ -31,6 +50,32 @@ void AssembleMaterial(const v1::Material& now, uint32_t picture_height,
   material->set_vertex_color(now.vertex_color());
   material->set_line_width(now.line_width() * picture_height / 1080);
   material->set_fill(now.fill());
+  for (const v1::Stage& stage : now.stage()) {
+    v1::FrameStage* out = material->add_stage();
+    out->set_kind(stage.kind());
+    if (Result<> done = AssembleEntry(stage, out); !done) return done;
+  }
+  return {};
+}
+
+Vec3 ToVec3(const v1::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+// Defaults are filled in.
+UvMap UvOf(const v1::Primitive& primitive) {
+  switch (primitive.kind()) {
+    case v1::Primitive::SPHERE:
+      return {UvKind::kSphere, Vec3(primitive.radius())};
+    case v1::Primitive::ELLIPSOID:
+      return {UvKind::kSphere, ToVec3(primitive.radii())};
+    case v1::Primitive::TORUS:
+      return {UvKind::kTorus, Vec3(primitive.radius(), primitive.tube(), 0)};
+    case v1::Primitive::BOX:
+      return {UvKind::kBox, ToVec3(primitive.size())};
+    case v1::Primitive::GRID:
+      return {UvKind::kPlane, ToVec3(primitive.size())};
+    default:
+      return {};
+  }
 }
 
 }  // namespace
@@ -41,6 +86,13 @@ void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame) {
   output->set_height(now.output().height());
   output->set_format(static_cast<uint32_t>(now.output().format()));
   output->set_samples(now.output().samples());
+  const auto& layers = now.output().layers();
+  if (std::find(layers.begin(), layers.end(), v1::Output::DEPTH) != layers.end()) {
+    output->add_layer(v1::Output::DEPTH);
+  }
+  if (now.output().dither() && now.output().format() == v1::Output::PNG8) {
+    output->set_dither(kDitherVersion);
+  }
 
   v1::FrameCamera* camera = frame->mutable_camera();
   Append(now.camera().eye(), camera->mutable_eye());
@@ -57,7 +109,12 @@ void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame) {
 
   Append(now.background().top(), 1, frame->mutable_background());
   Append(now.background().bottom(), 1, frame->mutable_background());
+  frame->set_sky(static_cast<uint32_t>(now.background().kind()));
   Append(now.ambient(), 1, frame->mutable_ambient());
+  if (now.has_haze() && now.haze().density() > 0) {
+    Append(now.haze().color(), 1, frame->mutable_haze()->mutable_color());
+    frame->mutable_haze()->set_density(now.haze().density());
+  }
   for (const v1::Light& light : now.lights()) {
     v1::FrameLight* out = frame->add_light();
     const bool local = light.kind() == v1::Light::LOCAL;
@@ -65,6 +122,7 @@ void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame) {
     Append(local ? light.position() : light.direction(), out->mutable_place());
     if (local) out->set_range(light.range());
     Append(light.color(), light.intensity(), out->mutable_color());
+    if (light.shadow()) out->set_shadow(light.shadow_detail());
   }
   if (now.has_sea()) {
     v1::FrameSea* sea = frame->mutable_sea();
@@ -75,36 +133,43 @@ void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame) {
   }
 }
 
-void AssembleObject(const v1::Object& now, uint32_t picture_height, v1::FrameObject* object) {
+Result<> AssembleObject(const v1::Object& now, uint32_t picture_height, v1::FrameObject* object) {
   const ObjectTransform transform(now.transform());
   if (!transform.IsIdentity()) {
     for (const double entry : transform.Rows()) object->add_transform(entry);
   }
-  AssembleMaterial(now.material(), picture_height, object->mutable_material());
+  return AssembleMaterial(now.material(), picture_height, object->mutable_material());
 }
 
-void AssembleFractal(const v1::Fractal& now, v1::FrameFractal* fractal) {
-  const MethodInfo* method = FindFractalMethod(now.method());
-  FJORD_CHECK(method != nullptr, now.method());
-  // knobs that the method has not are absent in the scene; its defaults stand for them
-  const FractalSettings& defaults = method->defaults;
+void AssembleReads(const v1::Object& whole, uint32_t number, v1::FrameObject* object,
+                   v1::FrameScene* frame) {
+  StageReads reads;
+  for (const v1::FrameStage& stage : object->material().stage()) {
+    const StageInfo* info = FindTextureStage(stage.kind());
+    if (info == nullptr || info->reads == nullptr) continue;
+    std::vector<KnobDefect> defects;
+    const StageReads own =
+        info->reads(info->knobs.Read(ValuesOf(stage.parameter()), info->name, &defects));
+    reads.uv |= own.uv;
+    reads.time |= own.time;
+  }
+  if (reads.time) frame->set_instant(number);
+  const v1::Shape* shape = &whole.shape();
+  for (const v1::Key& key : whole.key()) {
+    if (key.frame() == whole.rest_frame()) shape = &key.shape();
+  }
+  if (!reads.uv || !shape->has_primitive()) return;
+  const UvMap map = UvOf(shape->primitive());
+  object->set_uv(static_cast<uint32_t>(map.kind));
+  for (int i = 0; i < 3; ++i) object->add_uv_size(map.size[i]);
+}
+
+Result<> AssembleFractal(const v1::Fractal& now, v1::FrameFractal* fractal) {
   fractal->set_method(now.method());
   fractal->set_seed(now.seed());
-  fractal->set_h(now.has_h() ? now.h() : defaults.H);
-  fractal->set_sigma(now.has_sigma() ? now.sigma() : defaults.sigma);
-  fractal->set_amplitude(now.has_amplitude() ? now.amplitude() : defaults.amplitude);
-  fractal->set_law(static_cast<uint32_t>(now.law()));
-  fractal->set_direction(static_cast<uint32_t>(now.direction()));
-  fractal->set_variant(static_cast<uint32_t>(now.variant()));
   fractal->set_split(static_cast<uint32_t>(now.split()));
   fractal->set_max_level(now.max_level());
-  fractal->set_uniforms(now.uniforms());
-  fractal->set_move(now.has_move() ? now.move() : defaults.move);
-  fractal->set_perturb(now.has_perturb() ? now.perturb() : defaults.perturb);
-  fractal->set_stretch(now.stretch());
-  fractal->set_increments(static_cast<uint32_t>(now.increments()));
-  fractal->set_coast(now.coast());
-  fractal->set_coast_h(now.has_coast_h() ? now.coast_h() : defaults.coast_H);
+  return AssembleEntry(now, fractal);
 }
 
 }  // namespace fjord

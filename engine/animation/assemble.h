@@ -2,6 +2,7 @@
 // left at zero, so that equal pictures have equal keys.
 #pragma once
 
+#include "engine/base/result.h"
 #include "fjord/v1/frame.pb.h"
 #include "fjord/v1/scene.pb.h"
 
@@ -11,9 +12,14 @@ namespace fjord {
 void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame);
 
 // All but the shape (frame_geometry.h) and the fractal.
-void AssembleObject(const v1::Object& now, uint32_t picture_height, v1::FrameObject* object);
+Result<> AssembleObject(const v1::Object& now, uint32_t picture_height, v1::FrameObject* object);
 
-// All but the fineness.
-void AssembleFractal(const v1::Fractal& now, v1::FrameFractal* fractal);
+// What texture stages read beside the surface itself, where any does: the rule of (u,v) that the
+// shape of the rest pose has, and the time. `whole`: the object as it is in the scene.
+void AssembleReads(const v1::Object& whole, uint32_t number, v1::FrameObject* object,
+                   v1::FrameScene* frame);
+
+// All but the fineness. kInvalid where tracks have taken values together out of bounds.
+Result<> AssembleFractal(const v1::Fractal& now, v1::FrameFractal* fractal);
 
 }  // namespace fjord

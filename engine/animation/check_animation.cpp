@@ -1,9 +1,11 @@
 #include "engine/animation/check_animation.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "engine/animation/coarse.h"
 #include "engine/animation/frame_geometry.h"
@@ -32,16 +34,28 @@ v1::FrameObject Coarsened(v1::FrameObject object, double factor) {
   return object;
 }
 
+void SortByIdentity(Made* made) {
+  std::vector<uint32_t> order(made->identity.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    return made->identity[a] != made->identity[b] ? made->identity[a] < made->identity[b] : a < b;
+  });
+  const Made before = *made;
+  for (size_t i = 0; i < order.size(); ++i) {
+    made->identity[i] = before.identity[order[i]];
+    made->points[i] = before.points[order[i]];
+  }
+}
+
 Result<Made> Make(const v1::FrameObject& object, uint64_t most_points) {
-  // ADAPTIVE reads a view; without a picture the shot's own lengths do
-  v1::FrameObject plain = object;
-  if (plain.fractal().split() == v1::Fractal::ADAPTIVE)
-    plain.mutable_fractal()->set_split(v1::Fractal::LENGTH);
-  Result<std::unique_ptr<PreparedFractal>> prepared = PrepareFractal(plain, nullptr);
+  Result<std::unique_ptr<PreparedFractal>> prepared = PrepareFractal(object);
   if (!prepared) return prepared.error();
   Result<WeldedShape> welded = (*prepared)->Weld({most_points});
   if (!welded) return welded.error();
-  return Made{std::move(welded->identity), std::move(welded->mesh.points)};
+  Made made{std::move(welded->identity), std::move(welded->mesh.points)};
+  // The frame's own lengths may change the order of vertices where they do not change the tree.
+  if (object.fractal().split() != v1::Fractal::SHOT) SortByIdentity(&made);
+  return made;
 }
 
 double LargestStep(std::span<const Vec3> before, std::span<const Vec3> after) {

@@ -4,6 +4,7 @@
 
 #include "engine/animation/frame_geometry.h"
 #include "engine/fractal/registry.h"
+#include "engine/scene/parameters.h"
 
 namespace fjord {
 namespace {
@@ -16,47 +17,41 @@ Vec3 VectorOr(const Doubles& values, const Vec3& otherwise) {
 
 }  // namespace
 
-FractalSettings FractalSettingsOf(const v1::FrameFractal& fractal) {
-  FractalSettings settings;
+Fineness FinenessOf(const v1::FrameFineness& from) {
+  Fineness fineness;
+  fineness.epsilon = from.epsilon();
+  fineness.pixels = from.pixels();
+  fineness.focal = from.focal();
+  fineness.near = from.near();
+  fineness.eye = VectorOr(from.eye(), Vec3(0));
+  fineness.eye_radius = from.eye_radius();
+  return fineness;
+}
+
+Result<MethodSettings> MethodSettingsOf(const v1::FrameFractal& fractal) {
+  const MethodInfo* method = FindFractalMethod(fractal.method());
+  if (method == nullptr)
+    return Invalid("frame scene: there is no fractal method \"" + fractal.method() + "\"");
+  MethodSettings settings;
   settings.method = fractal.method();
   settings.seed = fractal.seed();
-  settings.H = fractal.h();
-  settings.sigma = fractal.sigma();
-  settings.amplitude = fractal.amplitude();
-  settings.law = static_cast<Law>(fractal.law());
-  settings.direction = static_cast<Direction>(fractal.direction());
-  settings.variant = static_cast<Variant>(fractal.variant());
   settings.split = static_cast<Split>(fractal.split());
   settings.max_level = fractal.max_level();
-  settings.uniforms = fractal.uniforms();
-  settings.move = fractal.move();
-  settings.perturb = fractal.perturb();
-  settings.stretch = fractal.stretch();
-  settings.increments = static_cast<Increments>(fractal.increments());
-  settings.coast = fractal.coast();
-  settings.coast_H = fractal.coast_h();
-  const v1::FrameFineness& fineness = fractal.fineness();
-  settings.fineness.epsilon = fineness.epsilon();
-  settings.fineness.pixels = fineness.pixels();
-  settings.fineness.focal = fineness.focal();
-  settings.fineness.near = fineness.near();
-  settings.fineness.eye = VectorOr(fineness.eye(), Vec3(0));
-  settings.fineness.eye_radius = fineness.eye_radius();
+  settings.fineness = FinenessOf(fractal.fineness());
+  std::vector<KnobDefect> defects;
+  settings.own = method->knobs.Read(ValuesOf(fractal.parameter()), method->name, &defects);
+  if (!defects.empty()) {
+    return Invalid("frame scene: fractal." + defects.front().knob + ": " + defects.front().message);
+  }
   return settings;
 }
 
-Result<std::unique_ptr<PreparedFractal>> PrepareFractal(const v1::FrameObject& object,
-                                                        const AdaptiveView* view) {
-  const MethodInfo* method = FindFractalMethod(object.fractal().method());
-  if (method == nullptr) {
-    return Invalid("frame scene: there is no fractal method \"" + object.fractal().method() + "\"");
-  }
+Result<std::unique_ptr<PreparedFractal>> PrepareFractal(const v1::FrameObject& object) {
+  Result<MethodSettings> settings = MethodSettingsOf(object.fractal());
+  if (!settings) return settings.error();
   Result<CoarseShape> shape = CoarseShapeOf(object, nullptr);
   if (!shape) return shape.error();
-  const FractalSettings settings = FractalSettingsOf(object.fractal());
-  const Errors defects = CheckSettings(*method, settings);
-  if (!defects.empty()) return defects.front();
-  return method->prepare(std::move(*shape), settings, view);
+  return PrepareMethod(std::move(*shape), *settings);
 }
 
 }  // namespace fjord

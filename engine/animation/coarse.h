@@ -10,12 +10,13 @@
 
 namespace fjord {
 
-FractalSettings FractalSettingsOf(const v1::FrameFractal& fractal);
+Fineness FinenessOf(const v1::FrameFineness& fineness);
+
+// kInvalid where there is no such method or its table refuses a value.
+Result<MethodSettings> MethodSettingsOf(const v1::FrameFractal& fractal);
 
 // The object's fractal, prepared by its method. Needs object.has_fractal() and
-// all lists written out (frame_geometry.h). `view` as in
-// MethodInfo.
-Result<std::unique_ptr<PreparedFractal>> PrepareFractal(const v1::FrameObject& object,
-                                                        const AdaptiveView* view);
+// all lists written out (frame_geometry.h).
+Result<std::unique_ptr<PreparedFractal>> PrepareFractal(const v1::FrameObject& object);
 
 }  // namespace fjord

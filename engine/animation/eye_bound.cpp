@@ -5,6 +5,32 @@
 namespace fjord {
 namespace {
 
+// The largest |x - center| - |x - eye| over the box, from above: per cell its value at the cell's
+// centre, and how much it can grow within the cell. Unit vectors to x from two places differ by at
+// most 2 |apart| / (sum of distances), which bounds the slope.
+double RadiusOf(const Vec3& center, std::span<const EyeBound> eyes, const BoxCells& cells) {
+  double radius = 0;
+  for (const EyeBound& bound : eyes) {
+    const Vec3& eye = bound.center;
+    const double apart = Length(eye - center);
+    if (apart == 0) {
+      radius = std::max(radius, bound.radius);
+      continue;
+    }
+    double most = -apart;
+    for (const Vec3& x : cells.centers) {
+      const double from_center = Length(x - center), from_eye = Length(x - eye);
+      const double sum = from_center + from_eye - 2 * cells.reach;
+      const double slope = sum > apart ? 2 * apart / sum : 2;
+      most = std::max(most, from_center - from_eye + slope * cells.reach);
+    }
+    radius = std::max(radius, std::min(most, apart) + bound.radius);
+  }
+  return radius * (1 + 1e-9);
+}
+
+}  // namespace
+
 double DistanceTo(const Box& box, const Vec3& point) {
   Vec3 apart(0);
   for (int i = 0; i < 3; ++i) {
@@ -12,28 +38,6 @@ double DistanceTo(const Box& box, const Vec3& point) {
   }
   return Length(apart);
 }
-
-// The largest |x - center| - |x - eye| over the box, from above: per cell its value at the cell's
-// centre, and how much it can grow within the cell. Unit vectors to x from two places differ by at
-// most 2 |apart| / (sum of distances), which bounds the slope.
-double RadiusOf(const Vec3& center, std::span<const Vec3> eyes, const BoxCells& cells) {
-  double radius = 0;
-  for (const Vec3& eye : eyes) {
-    const double apart = Length(eye - center);
-    if (apart == 0) continue;
-    double most = 0;
-    for (const Vec3& x : cells.centers) {
-      const double from_center = Length(x - center), from_eye = Length(x - eye);
-      const double sum = from_center + from_eye - 2 * cells.reach;
-      const double slope = sum > apart ? 2 * apart / sum : 2;
-      most = std::max(most, from_center - from_eye + slope * cells.reach);
-    }
-    radius = std::max(radius, std::min(most, apart));
-  }
-  return radius * (1 + 1e-9);
-}
-
-}  // namespace
 
 BoxCells CutBox(const Box& box, int along) {
   const Vec3 size = box.Size();
@@ -55,21 +59,23 @@ BoxCells CutBox(const Box& box, int along) {
   return cells;
 }
 
-std::vector<EyeBound> BoundEyes(std::span<const Vec3> eyes, const Box& box, int along) {
+std::vector<EyeBound> BoundEyes(std::span<const EyeBound> eyes, const Box& box, int along) {
   Box around;
-  Vec3 nearest = eyes[0];
-  double least = DistanceTo(box, eyes[0]);
-  for (const Vec3& eye : eyes) {
-    around.Add(eye);
-    const double distance = DistanceTo(box, eye);
+  EyeBound nearest = eyes[0];
+  double least = DistanceTo(box, nearest.center) - nearest.radius;
+  double widest = 0;
+  for (const EyeBound& eye : eyes) {
+    around.Add(eye.center);
+    widest = std::max(widest, eye.radius);
+    const double distance = DistanceTo(box, eye.center) - eye.radius;
     if (distance < least) {
       least = distance;
       nearest = eye;
     }
   }
-  if (around.low == around.high) return {{eyes[0], 0}};
+  if (around.low == around.high) return {{eyes[0].center, widest}};
   const BoxCells cells = CutBox(box, along);
-  return {{nearest, RadiusOf(nearest, eyes, cells)},
+  return {{nearest.center, RadiusOf(nearest.center, eyes, cells)},
           {around.Center(), RadiusOf(around.Center(), eyes, cells)}};
 }
 

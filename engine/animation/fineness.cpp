@@ -10,24 +10,6 @@ namespace {
 
 Vec3 ToVec3(const v1::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-double DistanceTo(const Box& box, const Vec3& point) {
-  Vec3 apart(0);
-  for (int i = 0; i < 3; ++i) {
-    apart[i] = std::max({0.0, box.low[i] - point[i], point[i] - box.high[i]});
-  }
-  return Length(apart);
-}
-
-Box WorldBox(const Box& box, const ObjectTransform& transform) {
-  Box world;
-  for (int corner = 0; corner < 8; ++corner) {
-    world.Add(transform.ToWorld({(corner & 1) != 0 ? box.high.x : box.low.x,
-                                 (corner & 2) != 0 ? box.high.y : box.low.y,
-                                 (corner & 4) != 0 ? box.high.z : box.low.z}));
-  }
-  return world;
-}
-
 // The demand as one length for the whole object: exact but for pixels seen in perspective, where
 // the nearest point of the object's box decides.
 double EpsilonOf(const FinenessDemand& demand, const Box& rest, uint32_t height) {
@@ -40,21 +22,18 @@ double EpsilonOf(const FinenessDemand& demand, const Box& rest, uint32_t height)
   return demand.pixels * std::max(camera.near, distance) / camera.Focal(height) / scale;
 }
 
-// The demands by pixels with one eye for all, in its possible forms. None where a demand has no
-// such form.
-std::vector<v1::FrameFineness> ByPixels(std::span<const FinenessDemand> demands, const Box& rest,
-                                        uint32_t height, int along) {
-  std::vector<Vec3> eyes;
+// The needs by pixels with one eye for all, in its possible forms. None where a need has no such
+// form.
+std::vector<v1::FrameFineness> ByPixels(std::span<const FinenessNeed> needs, const Box& rest,
+                                        int along) {
+  std::vector<EyeBound> eyes;
   double pixels = 0, focal = 0, near = 0;
-  for (const FinenessDemand& demand : demands) {
-    // lengths grow by at most the largest scale, distances by at least the smallest
-    const double least = demand.transform.least_scale(), largest = demand.transform.largest_scale();
-    if (demand.pixels <= 0 || demand.camera.orthographic || least <= 0) return {};
-    const double this_near = demand.camera.near / least;
-    pixels = eyes.empty() ? demand.pixels : std::min(pixels, demand.pixels);
-    near = eyes.empty() ? this_near : std::min(near, this_near);
-    focal = std::max(focal, demand.camera.Focal(height) * (largest / least));
-    eyes.push_back(demand.transform.ToObject(demand.camera.eye));
+  for (const FinenessNeed& need : needs) {
+    if (need.focal <= 0) return {};
+    pixels = eyes.empty() ? need.pixels : std::min(pixels, need.pixels);
+    near = eyes.empty() ? need.near : std::min(near, need.near);
+    focal = std::max(focal, need.focal);
+    eyes.push_back(need.eye);
   }
   std::vector<v1::FrameFineness> forms;
   for (const EyeBound& bound : BoundEyes(eyes, rest, along)) {
@@ -107,11 +86,36 @@ std::string CameraState::Defect() const {
   return "";
 }
 
-v1::FrameFineness WorkOutFineness(std::span<const FinenessDemand> demands, const Box& rest,
-                                  uint32_t picture_height, int cells_along) {
-  std::vector<FinenessDemand> seen;
-  for (const FinenessDemand& demand : demands) {
-    if (demand.transform.largest_scale() > 0) seen.push_back(demand);
+Box WorldBox(const Box& box, const ObjectTransform& transform) {
+  Box world;
+  for (int corner = 0; corner < 8; ++corner) {
+    world.Add(transform.ToWorld({(corner & 1) != 0 ? box.high.x : box.low.x,
+                                 (corner & 2) != 0 ? box.high.y : box.low.y,
+                                 (corner & 4) != 0 ? box.high.z : box.low.z}));
+  }
+  return world;
+}
+
+FinenessNeed NeedOf(const FinenessDemand& demand, const Box& rest, uint32_t picture_height) {
+  FinenessNeed need;
+  // lengths grow by at most the largest scale, distances by at least the smallest
+  const double least = demand.transform.least_scale(), largest = demand.transform.largest_scale();
+  if (largest <= 0) return need;
+  need.any = true;
+  need.epsilon = EpsilonOf(demand, rest, picture_height);
+  if (demand.pixels <= 0 || demand.camera.orthographic || least <= 0) return need;
+  need.pixels = demand.pixels;
+  need.near = demand.camera.near / least;
+  need.focal = demand.camera.Focal(picture_height) * (largest / least);
+  need.eye.center = demand.transform.ToObject(demand.camera.eye);
+  return need;
+}
+
+v1::FrameFineness FinenessFor(std::span<const FinenessNeed> needs, const Box& rest,
+                              int cells_along) {
+  std::vector<FinenessNeed> seen;
+  for (const FinenessNeed& need : needs) {
+    if (need.any) seen.push_back(need);
   }
   v1::FrameFineness fineness;
   if (seen.empty()) {  // never any size: nothing is split
@@ -119,14 +123,13 @@ v1::FrameFineness WorkOutFineness(std::span<const FinenessDemand> demands, const
     return fineness;
   }
   double epsilon = 0;
-  for (const FinenessDemand& demand : seen) {
-    const double wanted = EpsilonOf(demand, rest, picture_height);
-    epsilon = epsilon > 0 ? std::min(epsilon, wanted) : wanted;
+  for (const FinenessNeed& need : seen) {
+    epsilon = epsilon > 0 ? std::min(epsilon, need.epsilon) : need.epsilon;
   }
   fineness.set_epsilon(epsilon);
   // One eye lets far parts be coarse; where the camera goes round the object, one length may be
   // less.
-  const std::vector<v1::FrameFineness> forms = ByPixels(seen, rest, picture_height, cells_along);
+  const std::vector<v1::FrameFineness> forms = ByPixels(seen, rest, cells_along);
   if (forms.size() == 1) return forms[0];
   const BoxCells cells = CutBox(rest, 6);
   double least = CostOf(fineness, cells);
@@ -137,6 +140,15 @@ v1::FrameFineness WorkOutFineness(std::span<const FinenessDemand> demands, const
     fineness = form;
   }
   return fineness;
+}
+
+v1::FrameFineness WorkOutFineness(std::span<const FinenessDemand> demands, const Box& rest,
+                                  uint32_t picture_height, int cells_along) {
+  std::vector<FinenessNeed> needs;
+  for (const FinenessDemand& demand : demands) {
+    needs.push_back(NeedOf(demand, rest, picture_height));
+  }
+  return FinenessFor(needs, rest, cells_along);
 }
 
 }  // namespace fjord

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/animation/eye_bound.h"
 #include "engine/scene/shapes.h"
 #include "engine/scene/transform.h"
 #include "fjord/v1/frame.pb.h"
@@ -41,9 +42,31 @@ struct FinenessDemand {
   double viewing = 0;
 };
 
-// `rest`: the box of the rest pose. Frames in which the object has no size do not count.
-// `cells_along`: how closely a moving eye is bounded (eye_bound.h).
+// The most that one frame, or every frame of a stretch, asks of one object.
+struct FinenessNeed {
+  bool any = false;    // false: the object has no size
+  double epsilon = 0;  // as one length for the whole object
+  // The same as pixels, in object space, seen from wherever in a ball the eye may be. focal 0:
+  // what is asked has no such form.
+  double pixels = 0;
+  double focal = 0;
+  double near = 0;
+  EyeBound eye;
+};
+
+// `rest`: the box of the rest pose.
+FinenessNeed NeedOf(const FinenessDemand& demand, const Box& rest, uint32_t picture_height);
+
+// One fineness for all needs. Those without size do not count. `cells_along`: how closely a moving
+// eye is bounded (eye_bound.h).
+v1::FrameFineness FinenessFor(std::span<const FinenessNeed> needs, const Box& rest,
+                              int cells_along = 8);
+
+// Both in one, for frames.
 v1::FrameFineness WorkOutFineness(std::span<const FinenessDemand> demands, const Box& rest,
                                   uint32_t picture_height, int cells_along = 8);
+
+// The eight corners of the box, in the world.
+Box WorldBox(const Box& box, const ObjectTransform& transform);
 
 }  // namespace fjord

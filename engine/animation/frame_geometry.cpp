@@ -112,6 +112,52 @@ Result<Lists> ListsOf(const v1::FrameObject& object, const AssetResolver* assets
   return Lists{std::move(*points), std::move(*rest), std::move(*colors), std::move(*faces)};
 }
 
+Result<CoarseShape> HeightsOf(const v1::FrameHeights& heights, const AssetResolver* assets) {
+  constexpr uint32_t kMost = uint32_t{1} << 20;
+  const uint32_t columns = heights.columns(), rows = heights.rows();
+  if (columns < 2 || rows < 2 || columns > kMost || rows > kMost) {
+    return Inconsistent("heights of " + std::to_string(columns) + " x " + std::to_string(rows) +
+                        " samples");
+  }
+  if (heights.size_size() != 3 ||
+      (heights.rest_size_size() != 0 && heights.rest_size_size() != 3)) {
+    return Inconsistent("the size of heights needs three numbers");
+  }
+  CoarseShape shape;
+  HeightField& field = shape.heights.emplace();
+  field.size = VectorAt(heights.size(), 0);
+  shape.heights_rest = heights.rest_size_size() > 0 ? VectorAt(heights.rest_size(), 0) : field.size;
+  for (const Vec3& size : {field.size, shape.heights_rest}) {
+    if (!(size.x > 0 && size.x <= 1e15 && size.y > 0 && size.y <= 1e15 && size.z >= -1e15 &&
+          size.z <= 1e15)) {
+      return Inconsistent("the size of heights must be above 0 along x and y, and below 1e15");
+    }
+  }
+  const uint64_t count = uint64_t{columns} * rows;
+  if (heights.has_sample_asset()) {
+    auto samples = ListOf<HeightSamples>(&heights.sample_asset(), assets, "heights",
+                                         []() -> Result<HeightSamples> { return Invalid(""); });
+    if (!samples) return samples.error();
+    field.source = *samples;
+  } else if (heights.sample_size() > 0) {
+    if (static_cast<uint64_t>(heights.sample_size()) != count) {
+      return Inconsistent("heights have another number of samples than columns and rows say");
+    }
+    std::vector<float> samples;
+    for (const double sample : heights.sample()) {
+      if (!(sample >= -1e15 && sample <= 1e15)) return Inconsistent("heights must be finite");
+      samples.push_back(static_cast<float>(sample));
+    }
+    field.source = SampledHeights(columns, rows, std::move(samples));
+  } else {
+    field.source = FlatHeights(columns, rows);
+  }
+  if (field.source->columns() != columns || field.source->rows() != rows) {
+    return Inconsistent("heights have other columns and rows than their samples");
+  }
+  return shape;
+}
+
 Result<> CheckFaces(const FaceList& faces, size_t points) {
   uint64_t corners = 0;
   for (const uint32_t size : faces.size) corners += size;
@@ -144,6 +190,43 @@ SharedAsset AssetOf(const Geometry& topology) {
   return MakeAsset(FaceList{topology.face_size, topology.face_vertex});
 }
 
+SharedAsset AssetOf(const HeightSamples& samples) {
+  if (uint64_t{samples->columns()} * samples->rows() <= kInlineNumbers) return nullptr;
+  return MakeAsset(samples);
+}
+
+SharedAsset AssetOf(const PlacementList& placements) {
+  if (12 * placements.size() <= kInlineNumbers) return nullptr;
+  return MakeAsset(placements);
+}
+
+void AssembleHeights(const HeightsPose& pose, v1::FrameHeights* heights, AssetSet* assets) {
+  const HeightSource& source = *pose.now.source;
+  heights->set_columns(source.columns());
+  heights->set_rows(source.rows());
+  for (int i = 0; i < 3; ++i) heights->add_size(pose.now.size[i]);
+  for (int i = 0; i < 3 && pose.rest_size != pose.now.size; ++i) {
+    heights->add_rest_size(pose.rest_size[i]);
+  }
+  if (pose.flat) return;
+  if (pose.samples_asset) {
+    Name(pose.samples_asset, heights->mutable_sample_asset(), assets);
+    return;
+  }
+  for (uint32_t j = 0; j < source.rows(); ++j) {
+    for (uint32_t i = 0; i < source.columns(); ++i) heights->add_sample(double{source.At(i, j)});
+  }
+}
+
+void AssemblePlacements(const PlacementList& placements, const SharedAsset& asset,
+                        v1::FrameObject* object, AssetSet* assets) {
+  if (asset) {
+    Name(asset, object->mutable_placement_asset(), assets);
+    return;
+  }
+  for (const Rows& rows : placements) object->mutable_placement()->Add(rows.begin(), rows.end());
+}
+
 void AssembleGeometry(const FramePose& pose, v1::FrameObject* object, AssetSet* assets) {
   const SharedAsset points = pose.points_asset ? pose.points_asset : AssetOf(pose.points);
   if (points) {
@@ -174,7 +257,33 @@ void AssembleGeometry(const FramePose& pose, v1::FrameObject* object, AssetSet* 
   object->set_closed(topology.closed);
 }
 
-Result<CoarseShape> CoarseShapeOf(const v1::FrameObject& object, const AssetResolver* assets) {
+Result<PlacementList> PlacementsOf(const v1::FrameObject& object, const AssetResolver* assets) {
+  auto placements = ListOf<PlacementList>(
+      If(object.has_placement_asset(), object.placement_asset()), assets, "placements",
+      [&]() -> Result<PlacementList> {
+        if (object.placement_size() % 12 != 0) {
+          return Inconsistent("a placement needs 12 numbers");
+        }
+        PlacementList list(static_cast<size_t>(object.placement_size()) / 12);
+        for (int i = 0; i < object.placement_size(); ++i) {
+          list[static_cast<size_t>(i) / 12][static_cast<size_t>(i) % 12] = object.placement(i);
+        }
+        return list;
+      });
+  if (!placements) return placements.error();
+  for (const Rows& rows : *placements) {
+    for (const double number : rows) {
+      if (!(number >= -1e15 && number <= 1e15)) {
+        return Inconsistent("placements must be finite and below 1e15");
+      }
+    }
+  }
+  return placements;
+}
+
+Result<CoarseShape> CoarseShapeOf(const v1::FrameObject& object, const AssetResolver* assets,
+                                  Takes takes) {
+  if (object.has_heights()) return HeightsOf(object.heights(), assets);
   Result<Lists> lists = ListsOf(object, assets);
   if (!lists) return lists.error();
   CoarseShape shape;
@@ -185,6 +294,11 @@ Result<CoarseShape> CoarseShapeOf(const v1::FrameObject& object, const AssetReso
   shape.closed = object.closed();
   if (shape.curve) return shape;
   if (Result<> sound = CheckFaces(lists->faces, shape.now.size()); !sound) return sound.error();
+  if (takes == Takes::kFaces) {
+    shape.face_size = std::move(lists->faces.size);
+    shape.face_vertex = std::move(lists->faces.vertex);
+    return shape;
+  }
   shape.triangles = Triangulate(shape.rest, lists->faces.size, lists->faces.vertex);
   return shape;
 }
@@ -233,6 +347,14 @@ Result<> CheckGeometryForm(const v1::FrameObject& object) {
   if (sound) {
     sound = check(size(object.face_size()) + size(object.face_vertex()), object.has_face_asset(),
                   object.face_asset(), "faces");
+  }
+  if (sound) {
+    sound = check(size(object.heights().sample()), object.heights().has_sample_asset(),
+                  object.heights().sample_asset(), "heights");
+  }
+  if (sound) {
+    sound = check(size(object.placement()), object.has_placement_asset(), object.placement_asset(),
+                  "placements");
   }
   return sound;
 }

@@ -29,18 +29,39 @@ struct FramePose {
   SharedAsset points_asset, rest_asset, faces_asset, colors_asset;
 };
 
+// A height field in one frame. Without `samples_asset` the samples are short, or all 0 where
+// `flat`.
+struct HeightsPose {
+  HeightField now;
+  Vec3 rest_size{0};
+  bool flat = false;
+  SharedAsset samples_asset;
+};
+
 // The asset of a list that is long, else null.
 SharedAsset AssetOf(std::span<const Vec3> points);
 SharedAsset AssetOf(std::span<const Rgb> colors);
 SharedAsset AssetOf(const Geometry& topology);
+SharedAsset AssetOf(const HeightSamples& samples);
+SharedAsset AssetOf(const PlacementList& placements);
 
 // Writes the shape. `assets`, where it is not null, gets the lists that are only named.
 void AssembleGeometry(const FramePose& pose, v1::FrameObject* object, AssetSet* assets);
 
-// Points, rest pose, colours, triangles. kInvalid where the message is inconsistent (indices,
-// counts, digests), kNotFound where a list is not at hand. `assets` may be null where none is
-// named.
-Result<CoarseShape> CoarseShapeOf(const v1::FrameObject& object, const AssetResolver* assets);
+// All but the fineness.
+void AssembleHeights(const HeightsPose& pose, v1::FrameHeights* heights, AssetSet* assets);
+// `asset`: of the placements, where they are many.
+void AssemblePlacements(const PlacementList& placements, const SharedAsset& asset,
+                        v1::FrameObject* object, AssetSet* assets);
+
+// Points, rest pose, colours and, as `takes` says, triangles or faces; or heights. kInvalid where
+// the message is inconsistent (indices, counts, digests), kNotFound where a list is not at hand.
+// `assets` may be null where none is named.
+Result<CoarseShape> CoarseShapeOf(const v1::FrameObject& object, const AssetResolver* assets,
+                                  Takes takes = Takes::kTriangles);
+
+// One map for each placement, finite; none where the object is drawn once.
+Result<PlacementList> PlacementsOf(const v1::FrameObject& object, const AssetResolver* assets);
 
 // The object with its long lists written out, for those who change points.
 Result<v1::FrameObject> WrittenOut(const v1::FrameObject& object, const AssetResolver* assets);

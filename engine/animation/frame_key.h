@@ -16,6 +16,10 @@ namespace fjord {
 // registries.
 inline constexpr uint32_t kCoreShapeVersion = 2;
 
+// What FrameOutput.dither says where the dither of engine/image/dither.h is on. Raised with any
+// change of its pattern.
+inline constexpr uint32_t kDitherVersion = 1;
+
 // The bytes that are digested: a header with the core shape version and the version of each
 // registry entry used, then the walk. NaN anywhere, or an unknown registry entry: kInvalid.
 Result<std::string> FrameKeyBytes(const v1::FrameScene& frame);

@@ -7,6 +7,7 @@
 // I3 The frame number reaches the frame scene only through the values it leads to.
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 #include "engine/asset/asset.h"
@@ -20,7 +21,10 @@ namespace fjord {
 // it between threads.
 class Animation {
  public:
-  static Result<std::shared_ptr<const Animation>> Make(LoadedScene scene);
+  // Costs what shapes and tracks cost, however many frames the shot has. kCancelled soon after
+  // `cancel` (may be null) is set.
+  static Result<std::shared_ptr<const Animation>> Make(LoadedScene scene,
+                                                       const std::atomic<bool>* cancel = nullptr);
   virtual ~Animation() = default;
 
   virtual const v1::Scene& scene() const = 0;

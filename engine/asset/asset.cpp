@@ -64,6 +64,30 @@ Digest DigestOf(const FaceList& faces) {
   return digest.Finish();
 }
 
+Digest DigestOf(const HeightSamples& heights) {
+  SampleDigest digest(Head("heights", heights->columns()) + " " + std::to_string(heights->rows()) +
+                      "\n");
+  for (uint32_t j = 0; j < heights->rows(); ++j) {
+    for (uint32_t i = 0; i < heights->columns(); ++i) {
+      const float sample = heights->At(i, j);
+      digest.Add(sample == 0 ? 0 : std::bit_cast<uint32_t>(sample));
+    }
+  }
+  return digest.Finish();
+}
+
+Digest DigestOf(const PlacementList& placements) {
+  SampleDigest digest(Head("placements", placements.size()) + "\n");
+  for (const Rows& rows : placements) {
+    for (const double number : rows) digest.Add(number);
+  }
+  return digest.Finish();
+}
+
+uint64_t NumbersOf(const HeightSamples& heights) {
+  return uint64_t{heights->columns()} * heights->rows();
+}
+uint64_t NumbersOf(const PlacementList& placements) { return 12 * placements.size(); }
 uint64_t NumbersOf(const PointList& points) { return 3 * points.size(); }
 uint64_t NumbersOf(const ColorList& colors) { return 3 * colors.size(); }
 uint64_t NumbersOf(const FaceList& faces) { return faces.size.size() + faces.vertex.size(); }

@@ -1,5 +1,6 @@
-// The long lists of a frame scene (points, faces, colours) as values that are named by the digest
-// of their samples, so that a frame scene stays small and a list that stays is digested once.
+// The long lists of a frame scene (points, faces, colours, heights, placements) as values that are
+// named by the digest of their samples, so that a frame scene stays small and a list that stays is
+// digested once.
 //
 // Ownership: assets are immutable and shared. Threads: any number may read.
 //
@@ -9,6 +10,7 @@
 // A2 What an AssetSet was given stays until the set goes: no frame loses a list while it is drawn.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -17,6 +19,7 @@
 
 #include "engine/base/digest.h"
 #include "engine/base/result.h"
+#include "engine/geometry/heights.h"
 #include "engine/geometry/vec.h"
 
 namespace fjord {
@@ -29,7 +32,10 @@ struct FaceList {
 
 using PointList = std::vector<Vec3>;
 using ColorList = std::vector<Rgb>;
-using AssetData = std::variant<PointList, FaceList, ColorList>;
+using HeightSamples = std::shared_ptr<const HeightSource>;
+using Rows = std::array<double, 12>;  // 3 rows of 4: an affine map
+using PlacementList = std::vector<Rows>;
+using AssetData = std::variant<PointList, FaceList, ColorList, HeightSamples, PlacementList>;
 
 struct Asset {
   AssetData data;

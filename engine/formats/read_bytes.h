@@ -8,8 +8,9 @@
 
 namespace fjord {
 
-// kNotFound: no such file; kIo: a folder, no permission, a failing disk; kLimit: more than `most`
-// bytes. Never reads past the bound, so a pipe or device that does not end is refused too.
+// kNotFound: no such file; kIo: a folder, a device, no permission, a failing disk; kLimit: more
+// than `most` bytes. Never reads past the bound, and never takes more memory: a pipe that does not
+// end is refused too.
 Result<std::string> ReadBytes(const std::string& path, size_t most);
 
 }  // namespace fjord

@@ -8,7 +8,6 @@
 #include "engine/fractal/coast_batch.h"
 #include "engine/fractal/coast_pieces.h"
 #include "engine/fractal/line_walk.h"
-#include "engine/fractal/registry.h"
 
 namespace fjord {
 namespace {
@@ -92,7 +91,9 @@ Cut MakeCut(const LineRules& rules, const Node& node, const LineFrame& frame,
   if (cut.sealed) {
     cut.apex = cut.p;
     cut.apex.coast = false;
-    cut.apex.line.position = half.middle + (o - half.middle) * ApexShare(s, e, p, frame.plane);
+    const double inward = ApexShare(s, e, p, frame.plane);
+    cut.apex.line.position = half.middle + (o - half.middle) * inward;
+    cut.apex.line.place = half.vertex.place + (node.o.line.place - half.vertex.place) * inward;
     cut.apex.line.id = {DrawBits(half.vertex.id.lo, 31), Mix64(half.vertex.id.hi ^ 31)};
   }
   const double share = ShareThatFits(s, e, cut.apex.line.position, half.middle, p, frame.plane);
@@ -132,10 +133,12 @@ struct CoastVisitor {
 
 class PreparedCoast : public PreparedFractal {
  public:
-  PreparedCoast(CoastMesh mesh, LineRules rules, bool colored)
-      : mesh_(std::move(mesh)), rules_(std::move(rules)), colored_(colored) {}
+  PreparedCoast(CoastMesh mesh, LineRules rules)
+      : mesh_(std::move(mesh)), rules_(std::move(rules)) {}
 
   size_t RootCount() const override { return mesh_.triangles.size(); }
+
+  Triangle Corners(uint32_t element) const override { return mesh_.triangles[element]; }
 
   Ball Bound(size_t root) const override {
     const Triangle& t = mesh_.triangles[root];
@@ -158,7 +161,7 @@ class PreparedCoast : public PreparedFractal {
 
   StreamStats Stream(size_t root, StreamSink& sink, size_t patch_hint) const override {
     StreamStats stats;
-    TriangleBatch batch(sink, patch_hint, colored_);
+    TriangleBatch batch(sink, patch_hint, root);
     Walk(
         root, &stats,
         [&](const Vec3& a, const Vec3& b, const Vec3& c, double reach) {
@@ -175,7 +178,7 @@ class PreparedCoast : public PreparedFractal {
   Result<WeldedShape> Weld(const WeldLimits& limits) const override {
     WeldedShape shape;
     std::map<Identity, uint32_t> made;  // of the root at hand: all others share coarse ones only
-    const auto add = [&](const CoastVertex& v) {
+    const auto add = [&](const CoastVertex& v, const Triangle& corners) {
       const auto [place, is_new] =
           made.emplace(v.line.id, static_cast<uint32_t>(shape.mesh.points.size()));
       if (is_new) {
@@ -184,14 +187,16 @@ class PreparedCoast : public PreparedFractal {
         shape.level.push_back(static_cast<uint8_t>(v.line.level));
         shape.direction.push_back(v.normal);
         shape.coast.push_back(v.coast ? 1 : 0);
-        if (colored_) {
-          shape.mesh.colors.push_back(v.line.color);
+        if (!mesh_.colors.empty()) {
+          shape.mesh.colors.push_back(ColorAt(corners, v.line.place));
         }
       }
       return place->second;
     };
-    for (const CoastVertex& v : mesh_.vertices) {
-      add(v);
+    for (uint32_t i = 0; i < mesh_.vertices.size(); ++i) {
+      CoastVertex v = mesh_.vertices[i];
+      v.line.place = Weights(1, 0, 0);
+      add(v, {i, i, i});
     }
     for (size_t root = 0; root < RootCount(); ++root) {
       made.clear();
@@ -202,7 +207,8 @@ class PreparedCoast : public PreparedFractal {
       const bool complete = Walk(
           root, &stats, [](const Vec3&, const Vec3&, const Vec3&, double) { return true; },
           [&](const CoastVertex& a, const CoastVertex& b, const CoastVertex& c) {
-            const uint32_t corners[3] = {add(a), add(b), add(c)};
+            const Triangle& t = mesh_.triangles[root];
+            const uint32_t corners[3] = {add(a, t), add(b, t), add(c, t)};
             shape.mesh.AddFace(corners);
             return shape.mesh.points.size() <= limits.max_points;
           });
@@ -221,6 +227,12 @@ class PreparedCoast : public PreparedFractal {
   }
 
  private:
+  Rgb ColorAt(const Triangle& corners, const Weights& place) const {
+    return mesh_.colors[corners[0]] * static_cast<float>(place.x) +
+           mesh_.colors[corners[1]] * static_cast<float>(place.y) +
+           mesh_.colors[corners[2]] * static_cast<float>(place.z);
+  }
+
   double Reach(const CoastPiece& piece) const {
     return piece.coast ? rules_.Reach({piece.s.line, piece.e.line, piece.rest2, 0}) : 0;
   }
@@ -251,24 +263,17 @@ class PreparedCoast : public PreparedFractal {
 
   CoastMesh mesh_;
   LineRules rules_;
-  bool colored_;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<PreparedFractal>> PrepareCoast(CoarseShape shape,
-                                                      const FractalSettings& settings,
-                                                      const AdaptiveView* view) {
-  const MethodInfo& method = *FindFractalMethod("coast");
-  const Errors errors = CheckSettings(method, settings);
-  if (!errors.empty()) {
-    return errors.front();
-  }
-  FractalSettings resolved = ResolveSettings(method, settings);
+                                                      const FractalSettings& settings) {
+  FractalSettings resolved = settings;
   if (resolved.law == Law::kSimilar) {
     resolved.H = HeldBackH(resolved.H);
   }
-  Result<LineRules> rules = LineRules::Make(resolved, view);
+  Result<LineRules> rules = LineRules::Make(resolved);
   if (!rules.ok()) {
     return rules.error();
   }
@@ -277,7 +282,7 @@ Result<std::unique_ptr<PreparedFractal>> PrepareCoast(CoarseShape shape,
     return mesh.error();
   }
   return std::unique_ptr<PreparedFractal>(
-      std::make_unique<PreparedCoast>(std::move(*mesh), std::move(*rules), !shape.colors.empty()));
+      std::make_unique<PreparedCoast>(std::move(*mesh), std::move(*rules)));
 }
 
 }  // namespace fjord

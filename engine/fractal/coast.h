@@ -23,7 +23,6 @@ namespace fjord {
 
 // kInvalid where the shape has no triangles or the settings are not the method's.
 Result<std::unique_ptr<PreparedFractal>> PrepareCoast(CoarseShape shape,
-                                                      const FractalSettings& settings,
-                                                      const AdaptiveView* view);
+                                                      const FractalSettings& settings);
 
 }  // namespace fjord

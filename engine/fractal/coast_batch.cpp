@@ -12,12 +12,12 @@ void TriangleBatch::Add(const CoastVertex& a, const CoastVertex& b, const CoastV
 
 void TriangleBatch::Flush() {
   if (!triangles_.empty()) {
-    sink_.Take({vertices_, triangles_, {}, colors_});
+    sink_.Take({vertices_, triangles_, {}, places_, element_});
   }
   vertices_.clear();
   ids_.clear();
   triangles_.clear();
-  colors_.clear();
+  places_.clear();
 }
 
 // Among the last few, where neighbours are; else a new one.
@@ -32,8 +32,8 @@ uint32_t TriangleBatch::Index(const CoastVertex& v) {
   out.direction = v.normal;
   vertices_.push_back(out);
   ids_.push_back(v.line.id);
-  if (colored_) {
-    colors_.push_back(v.line.color);
+  if (places_read_) {
+    places_.push_back(v.line.place);
   }
   return static_cast<uint32_t>(count);
 }

@@ -10,8 +10,11 @@ namespace fjord {
 
 class TriangleBatch {
  public:
-  TriangleBatch(StreamSink& sink, size_t size, bool colored)
-      : sink_(sink), size_(size < 16 ? 16 : size), colored_(colored) {}
+  TriangleBatch(StreamSink& sink, size_t size, size_t element)
+      : sink_(sink),
+        size_(size < 16 ? 16 : size),
+        element_(static_cast<uint32_t>(element)),
+        places_read_(sink.ReadsPlaces()) {}
 
   void Add(const CoastVertex& a, const CoastVertex& b, const CoastVertex& c);
   void Flush();
@@ -21,11 +24,12 @@ class TriangleBatch {
 
   StreamSink& sink_;
   const size_t size_;
-  const bool colored_;
+  const uint32_t element_;
+  const bool places_read_;
   std::vector<StreamVertex> vertices_;
   std::vector<Identity> ids_;
   std::vector<Triangle> triangles_;
-  std::vector<Rgb> colors_;
+  std::vector<Weights> places_;
 };
 
 }  // namespace fjord

@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "engine/base/clamp.h"
 #include "engine/geometry/edges.h"
 #include "engine/geometry/normals.h"
 
@@ -56,10 +55,9 @@ CoastVertex Centroid(std::span<const CoastVertex, 3> c) {
   v.line.stretch = static_cast<float>(third(static_cast<double>(c[0].line.stretch),
                                             static_cast<double>(c[1].line.stretch),
                                             static_cast<double>(c[2].line.stretch)));
-  v.line.eye_distance2 = static_cast<float>(third(static_cast<double>(c[0].line.eye_distance2),
-                                                  static_cast<double>(c[1].line.eye_distance2),
-                                                  static_cast<double>(c[2].line.eye_distance2)));
-  v.line.color = (c[0].line.color + c[1].line.color + c[2].line.color) / 3.0f;
+  v.line.eye_distance2 =
+      third(c[0].line.eye_distance2, c[1].line.eye_distance2, c[2].line.eye_distance2);
+  v.line.place = third(c[0].line.place, c[1].line.place, c[2].line.place);
   v.normal = Unit(c[0].normal + c[1].normal + c[2].normal, c[0].normal);
   return v;
 }
@@ -98,7 +96,8 @@ std::vector<CoastPiece> MakePieces(std::span<const CoastVertex, 3> corners,
 
 std::vector<CoastPiece> CoastMesh::Pieces(size_t triangle) const {
   const Triangle& t = triangles[triangle];
-  const CoastVertex corners[3] = {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+  CoastVertex corners[3] = {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+  for (int k = 0; k < 3; ++k) corners[k].line.place = Weights(k == 0, k == 1, k == 2);
   const std::span<const double> rest2(border_rest2);
   return MakePieces(corners, rest2.subspan(3 * triangle).first<3>());
 }
@@ -109,6 +108,7 @@ Result<CoastMesh> MakeCoastMesh(const CoarseShape& shape, const FractalSettings&
   }
   CoastMesh mesh;
   mesh.triangles = shape.triangles;
+  mesh.colors = shape.colors;
   mesh.border_rest2.assign(3 * shape.triangles.size(), -1);
   const size_t count = shape.now.size();
   const std::vector<Vec3> normals = VertexNormals(shape.now, shape.triangles);
@@ -147,10 +147,7 @@ Result<CoastMesh> MakeCoastMesh(const CoarseShape& shape, const FractalSettings&
     v.line.direction = Softened(outward[i] * .5);
     v.line.stretch = StretchOf(stretch[i], stretched[i]);
     const Vec3 eye = shape.rest[i] - settings.fineness.eye;
-    v.line.eye_distance2 = ClampToFloat(glm::dot(eye, eye));
-    if (!shape.colors.empty()) {
-      v.line.color = shape.colors[i];
-    }
+    v.line.eye_distance2 = glm::dot(eye, eye);
     v.normal = normals[i];
     v.coast = coast[i] != 0;
     mesh.vertices.push_back(v);

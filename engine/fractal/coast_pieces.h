@@ -32,6 +32,7 @@ std::vector<CoastPiece> MakePieces(std::span<const CoastVertex, 3> corners,
 struct CoastMesh {
   std::vector<CoastVertex> vertices;
   std::vector<Triangle> triangles;
+  std::vector<Rgb> colors;  // none, or one a vertex
   // Squared rest length of the edge from corner k of triangle t to the next, entry 3 t + k; -1
   // where it is not a border edge.
   std::vector<double> border_rest2;

@@ -6,7 +6,6 @@
 #include "engine/fractal/curve_chain.h"
 #include "engine/fractal/curve_rules.h"
 #include "engine/fractal/line_walk.h"
-#include "engine/fractal/registry.h"
 
 namespace fjord {
 namespace {
@@ -14,8 +13,11 @@ namespace {
 // Gathers leaves, gives them away a batch at a time. Neighbours in the chain share their vertex.
 class SegmentBatch {
  public:
-  SegmentBatch(StreamSink& sink, size_t size, bool colored)
-      : sink_(sink), size_(size < 16 ? 16 : size), colored_(colored) {}
+  SegmentBatch(StreamSink& sink, size_t size, size_t element)
+      : sink_(sink),
+        size_(size < 16 ? 16 : size),
+        element_(static_cast<uint32_t>(element)),
+        places_read_(sink.ReadsPlaces()) {}
 
   void Add(const LineSegment& leaf) {
     if (segments_.empty() || !(last_ == leaf.a.id)) {
@@ -32,28 +34,29 @@ class SegmentBatch {
 
   void Flush() {
     if (!segments_.empty()) {
-      sink_.Take({vertices_, {}, segments_, colors_});
+      sink_.Take({vertices_, {}, segments_, places_, element_});
     }
     vertices_.clear();
     segments_.clear();
-    colors_.clear();
+    places_.clear();
   }
 
  private:
   void Push(const LineVertex& v) {
     vertices_.push_back(ToStream(v));
-    if (colored_) {
-      colors_.push_back(v.color);
+    if (places_read_) {
+      places_.push_back(v.place);
     }
   }
 
   StreamSink& sink_;
   const size_t size_;
-  const bool colored_;
+  const uint32_t element_;
+  const bool places_read_;
   Identity last_;
   std::vector<StreamVertex> vertices_;
   std::vector<std::array<uint32_t, 2>> segments_;
-  std::vector<Rgb> colors_;
+  std::vector<Weights> places_;
 };
 
 // Halves the segments of one input edge.
@@ -83,14 +86,18 @@ struct CurveVisitor {
 
 class PreparedCurve : public PreparedFractal {
  public:
-  PreparedCurve(CurveChain chain, LineRules rules, bool colored)
-      : chain_(std::move(chain)), rules_(std::move(rules)), colored_(colored) {
+  PreparedCurve(CurveChain chain, LineRules rules)
+      : chain_(std::move(chain)), rules_(std::move(rules)) {
     if (rules_.settings().increments == Increments::kAdditions) {
       additions_.emplace(rules_.settings());
     }
   }
 
   size_t RootCount() const override { return chain_.EdgeCount(); }
+
+  Triangle Corners(uint32_t element) const override {
+    return {element, chain_.Next(element), chain_.Next(element)};
+  }
 
   Ball Bound(size_t root) const override {
     const LineSegment edge = chain_.Edge(root);
@@ -100,7 +107,7 @@ class PreparedCurve : public PreparedFractal {
 
   StreamStats Stream(size_t root, StreamSink& sink, size_t patch_hint) const override {
     StreamStats stats;
-    SegmentBatch batch(sink, patch_hint, colored_);
+    SegmentBatch batch(sink, patch_hint, root);
     const LineSegment edge = chain_.Edge(root);
     Walk(
         root, &stats,
@@ -119,14 +126,14 @@ class PreparedCurve : public PreparedFractal {
     WeldedShape shape;
     shape.curve = true;
     shape.closed = chain_.closed;
-    const auto add = [&](const LineVertex& v) {
+    const auto add = [&](const LineVertex& v, size_t root) {
       shape.mesh.points.push_back(v.position);
       shape.identity.push_back(v.id);
       shape.level.push_back(static_cast<uint8_t>(v.level));
       shape.direction.push_back(v.direction);
       shape.coast.push_back(0);
-      if (colored_) {
-        shape.mesh.colors.push_back(v.color);
+      if (!chain_.colors.empty()) {
+        shape.mesh.colors.push_back(ColorAt(root, v.place));
       }
     };
     for (size_t root = 0; root < RootCount(); ++root) {
@@ -134,7 +141,7 @@ class PreparedCurve : public PreparedFractal {
       const bool complete = Walk(
           root, &stats, [](const LineSegment&) { return true; },
           [&](const LineSegment& leaf) {
-            add(leaf.a);
+            add(leaf.a, root);
             return shape.mesh.points.size() <= limits.max_points;
           });
       if (!complete) {
@@ -144,7 +151,8 @@ class PreparedCurve : public PreparedFractal {
       }
     }
     if (!chain_.closed) {
-      add(chain_.vertices.back());
+      const size_t last = RootCount() - 1;
+      add(chain_.Edge(last).b, last);
     }
     return shape;
   }
@@ -155,6 +163,11 @@ class PreparedCurve : public PreparedFractal {
   }
 
  private:
+  Rgb ColorAt(size_t root, const Weights& place) const {
+    return chain_.colors[root] * static_cast<float>(place.x) +
+           chain_.colors[chain_.Next(root)] * static_cast<float>(place.y);
+  }
+
   // What lies below a segment of the edge. Additions move a segment's ends as far as its inside, so
   // a point may be anywhere within the edge's reach of the edge: twice that of the segment.
   double Reach(const LineSegment& segment, const LineSegment& edge) const {
@@ -174,31 +187,23 @@ class PreparedCurve : public PreparedFractal {
 
   CurveChain chain_;
   LineRules rules_;
-  bool colored_;
   std::optional<CurveAdditions> additions_;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<PreparedFractal>> PrepareCurve(CoarseShape shape,
-                                                      const FractalSettings& settings,
-                                                      const AdaptiveView* view) {
-  const MethodInfo& method = *FindFractalMethod("curve");
-  const Errors errors = CheckSettings(method, settings);
-  if (!errors.empty()) {
-    return errors.front();
-  }
-  const FractalSettings resolved = ResolveSettings(method, settings);
-  Result<LineRules> rules = LineRules::Make(resolved, view);
+                                                      const FractalSettings& settings) {
+  Result<LineRules> rules = LineRules::Make(settings);
   if (!rules.ok()) {
     return rules.error();
   }
-  Result<CurveChain> chain = MakeCurveChain(shape, resolved);
+  Result<CurveChain> chain = MakeCurveChain(shape, settings);
   if (!chain.ok()) {
     return chain.error();
   }
   return std::unique_ptr<PreparedFractal>(
-      std::make_unique<PreparedCurve>(std::move(*chain), std::move(*rules), !shape.colors.empty()));
+      std::make_unique<PreparedCurve>(std::move(*chain), std::move(*rules)));
 }
 
 }  // namespace fjord

@@ -20,7 +20,6 @@ namespace fjord {
 
 // kInvalid where the shape is no curve or the settings are not the method's.
 Result<std::unique_ptr<PreparedFractal>> PrepareCurve(CoarseShape shape,
-                                                      const FractalSettings& settings,
-                                                      const AdaptiveView* view);
+                                                      const FractalSettings& settings);
 
 }  // namespace fjord

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "engine/base/clamp.h"
-
 namespace fjord {
 namespace {
 
@@ -79,6 +77,7 @@ Result<CurveChain> MakeCurveChain(const CoarseShape& shape, const FractalSetting
   }
   CurveChain chain;
   chain.closed = shape.closed;
+  chain.colors = shape.colors;
   for (size_t i = 0; i < count; ++i) {
     if (!IsFinite(shape.now[i]) || !IsFinite(shape.rest[i])) {
       return Invalid("point " + std::to_string(i + 1) + " of the curve is not finite");
@@ -110,10 +109,7 @@ Result<CurveChain> MakeCurveChain(const CoarseShape& shape, const FractalSetting
     v.direction = Softened(normal * .5);
     v.stretch = StretchOf(stretch, stretched);
     const Vec3 eye = shape.rest[i] - settings.fineness.eye;
-    v.eye_distance2 = ClampToFloat(glm::dot(eye, eye));
-    if (!shape.colors.empty()) {
-      v.color = shape.colors[i];
-    }
+    v.eye_distance2 = glm::dot(eye, eye);
     chain.vertices.push_back(v);
   }
   return chain;

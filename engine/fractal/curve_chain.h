@@ -12,11 +12,18 @@ struct CurveChain {
   std::vector<LineVertex> vertices;
   std::vector<LineFrame> frames;  // of edge i, from vertex i to the next
   std::vector<double> rest2;      // squared rest lengths of the edges
+  std::vector<Rgb> colors;        // none, or one a vertex
   bool closed = false;
 
   size_t EdgeCount() const { return frames.size(); }
+  uint32_t Next(size_t i) const {
+    return static_cast<uint32_t>(i + 1 < vertices.size() ? i + 1 : 0);
+  }
   LineSegment Edge(size_t i) const {
-    return {vertices[i], vertices[i + 1 < vertices.size() ? i + 1 : 0], rest2[i], 0};
+    LineSegment edge{vertices[i], vertices[Next(i)], rest2[i], 0};
+    edge.a.place = Weights(1, 0, 0);
+    edge.b.place = Weights(0, 1, 0);
+    return edge;
   }
 };
 

@@ -35,7 +35,7 @@ Vec3 RightNormal(const Vec3& along, const Vec3& plane) {
 }
 
 StreamVertex ToStream(const LineVertex& v) {
-  return {v.position, v.direction, v.id.lo, v.stretch, v.eye_distance2};
+  return {v.position, v.direction, v.id.lo, v.stretch, ClampToFloat(v.eye_distance2)};
 }
 
 float StretchOf(double sum, uint32_t edges) {
@@ -43,14 +43,8 @@ float StretchOf(double sum, uint32_t edges) {
   return static_cast<float>(mean < 1e6 ? mean : 1e6);
 }
 
-Result<LineRules> LineRules::Make(const FractalSettings& settings, const AdaptiveView* view) {
+Result<LineRules> LineRules::Make(const FractalSettings& settings) {
   LineRules rules(settings);
-  if (settings.split == Split::kAdaptive) {
-    if (view == nullptr) {
-      return Invalid("split ADAPTIVE needs a camera");
-    }
-    rules.view_ = *view;
-  }
   const int uniforms = static_cast<int>(settings.uniforms);
   rules.bound_ = GaussianBound(uniforms);
   rules.decay_ = exact::Exp2(-settings.H);
@@ -74,29 +68,14 @@ LineRules::Size LineRules::Measure(const LineSegment& s) const {
   }
   const Fineness& fine = settings_.fineness;
   const Vec3 along = s.b.position - s.a.position;
-  const bool rest = settings_.split == Split::kShot;
+  const bool rest = settings_.split != Split::kLength;
   const double length2 = rest ? s.rest2 : glm::dot(along, along);
-  if (settings_.split == Split::kAdaptive && fine.focal > 0) {
-    const auto project = [&](int row, const Vec3& p) {
-      const double* m = &view_.rows[4 * static_cast<size_t>(row)];
-      return m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3];
-    };
-    const double wa = project(2, s.a.position);
-    const double wb = project(2, s.b.position);
-    if (wa > view_.near && wb > view_.near) {
-      const double dx = project(0, s.a.position) * wb - project(0, s.b.position) * wa;
-      const double dy = project(1, s.a.position) * wb - project(1, s.b.position) * wa;
-      return {dx * dx + dy * dy, Square(fine.pixels * (wa * wb))};
-    }
-  }
   if (!(fine.focal > 0)) {
     return {length2, Square(fine.epsilon)};
   }
   double distance2 = 0;  // eye to the segment's middle
   if (rest) {
-    distance2 =
-        (static_cast<double>(s.a.eye_distance2) + static_cast<double>(s.b.eye_distance2)) * .5 -
-        s.rest2 * .25;
+    distance2 = (s.a.eye_distance2 + s.b.eye_distance2) * .5 - s.rest2 * .25;
   } else {
     const Vec3 middle = (s.a.position + s.b.position) * .5 - fine.eye;
     distance2 = glm::dot(middle, middle);
@@ -141,19 +120,18 @@ LineHalf LineRules::Halve(const LineSegment& s, const LineFrame& frame, const Si
   LineVertex& v = half.vertex;
   v.id = MidpointIdentity(s.a.id, s.b.id);
   v.level = s.level() + 1;
-  v.color = (s.a.color + s.b.color) * .5f;
+  v.place = (s.a.place + s.b.place) * .5;
   const double stretch = (static_cast<double>(s.a.stretch) + static_cast<double>(s.b.stretch)) * .5;
   v.stretch = static_cast<float>(stretch);
-  const double distance2 =
-      (static_cast<double>(s.a.eye_distance2) + static_cast<double>(s.b.eye_distance2)) * .5 -
-      s.rest2 * .25;
-  v.eye_distance2 = ClampToFloat(Larger(distance2, 0));
+  const double distance2 = (s.a.eye_distance2 + s.b.eye_distance2) * .5 - s.rest2 * .25;
+  v.eye_distance2 = Larger(distance2, 0);
   v.direction = Direction(s, frame, v.id);
   half.middle = (s.a.position + s.b.position) * .5;
   half.draw = Gaussian(v.id.lo, static_cast<int>(settings_.uniforms));
   half.offset = Offset(s, half.draw, settings_.stretch ? stretch : 1);
   if (settings_.split == Split::kAdaptive && size.threshold2 > 0) {
-    // The last level grows in with its size on the screen, so nothing pops as the camera moves.
+    // The last level grows in as the camera comes near. A segment's halves are shorter than all
+    // that is wanted while it does, so nothing hangs on it yet and nothing pops.
     const double over = std::sqrt(size.length2 / size.threshold2) - 1;
     const double t = over < 1 ? over : 1;
     half.offset *= t * t * (3 - 2 * t);
@@ -174,7 +152,7 @@ uint32_t LineRules::RemainingLevels(const LineSegment& s) const {
   const Fineness& fine = settings_.fineness;
   const uint32_t level = s.level();
   const uint32_t most = level < settings_.max_level ? settings_.max_level - level : 0;
-  if (settings_.split != Split::kShot) {
+  if (settings_.split == Split::kLength) {
     return most;
   }
   // The smallest threshold there is: the shot's, or that of the nearest distance that counts.

@@ -16,9 +16,9 @@ struct LineVertex {
   Vec3 direction{0};  // unit, or shorter where what it was made from nearly cancels (Softened)
   Identity id;
   float stretch = 1;
-  float eye_distance2 = 0;
+  double eye_distance2 = 0;
   uint32_t level = 0;
-  Rgb color{1};
+  Weights place{0};  // in its input edge
 };
 
 // From a to b along the chain: what is on its right-hand side is outside.
@@ -48,7 +48,7 @@ struct LineHalf {
 class LineRules {
  public:
   // Resolved, checked settings. kInvalid where the law or the split cannot be followed.
-  static Result<LineRules> Make(const FractalSettings& settings, const AdaptiveView* view);
+  static Result<LineRules> Make(const FractalSettings& settings);
 
   const FractalSettings& settings() const { return settings_; }
 
@@ -79,7 +79,6 @@ class LineRules {
   double Offset(const LineSegment& segment, double draw, double stretch) const;
 
   FractalSettings settings_;
-  AdaptiveView view_;
   double affine_ = 0;   // sigma A c(H)
   double similar_ = 0;  // r
   double bound_ = 0;    // of the Gaussian

@@ -4,9 +4,9 @@
 //   touch the picture are never made;
 // - welded, for files and checks: shared vertices once, each with its 128-bit identity.
 //
-// A prepared object is immutable and may be used by any number of threads. A method is one file and
-// one line in registry.cpp; parser, presets, docs, tests, benches and the exactness gate loop over
-// it.
+// A prepared object is immutable and may be used by any number of threads. A method's entry is one
+// file in engine/fractal/methods and one line in registry.cpp: scene reader, presets, docs, frame
+// key, tests, benches and the exactness gate loop over the registry and its tables.
 //
 // Invariants
 // M1 A new vertex depends on the edge it halves and the settings alone: no neighbour, order,
@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -28,7 +29,9 @@
 #include "engine/base/random.h"
 #include "engine/base/result.h"
 #include "engine/fractal/settings.h"
+#include "engine/geometry/heights.h"
 #include "engine/geometry/mesh.h"
+#include "engine/knobs/registry.h"
 
 namespace fjord {
 
@@ -37,7 +40,8 @@ size_t VectorBytes(const std::vector<T>& list) {
   return list.capacity() * sizeof(T);
 }
 
-// The coarse shape of one object in one frame. Triangles or a curve, never both.
+// The coarse shape of one object in one frame: a mesh, a curve, or heights. A mesh has the form
+// that its method takes (Takes): triangles, cut by the rest pose, or its faces as they are.
 struct CoarseShape {
   std::vector<Vec3> now;            // object space
   std::vector<Vec3> rest;           // as many as now
@@ -45,9 +49,15 @@ struct CoarseShape {
   bool curve = false;               // now, in order, is a polyline
   bool closed = false;
   std::vector<Rgb> colors;  // none, or one a vertex
+  // Takes::kFaces, as in Mesh: vertices of each face, three or more, and their numbers.
+  std::vector<uint32_t> face_size;
+  std::vector<uint32_t> face_vertex;
+  std::optional<HeightField> heights;  // then nothing above is there
+  Vec3 heights_rest{0};                // its size in the rest pose
 
   size_t Bytes() const {
-    return VectorBytes(now) + VectorBytes(rest) + VectorBytes(triangles) + VectorBytes(colors);
+    return VectorBytes(now) + VectorBytes(rest) + VectorBytes(triangles) + VectorBytes(colors) +
+           VectorBytes(face_size) + VectorBytes(face_vertex);
   }
 };
 
@@ -66,12 +76,19 @@ struct StreamVertex {
 };
 static_assert(sizeof(StreamVertex) == 64);
 
+// Where a vertex lies in the coarse element that it was made from: the weights of the element's
+// corners, whose sum is 1 (a segment: the third is 0). A midpoint's are the exact means of its
+// ends', dyadic fractions, wherever the midpoint is moved to: so what a coarse vertex has (colour,
+// rest position, ...) is known anywhere on the fine surface without being carried there.
+using Weights = Vec3;
+
 // Leaves of one patch. Spans are valid during the call only.
 struct StreamBatch {
   std::span<const StreamVertex> vertices;
   std::span<const Triangle> triangles;                // index vertices
   std::span<const std::array<uint32_t, 2>> segments;  // curves: index vertices, in order
-  std::span<const Rgb> colors;                        // none, or one a vertex
+  std::span<const Weights> places;  // one a vertex where the sink reads them, all in `element`
+  uint32_t element = 0;             // PreparedFractal::Corners
 };
 
 // How far from a triangle what is made of it can lie: at p + s w + r, p in the triangle, |s| <=
@@ -107,12 +124,8 @@ class StreamSink {
   // be wanted? Object space, now. Must never say no wrongly; yes costs time only.
   virtual bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) = 0;
   virtual void Take(const StreamBatch& batch) = 0;
-};
-
-// The projection that Split::kAdaptive reads: object space to pixels. Rows give x*w, y*w and w.
-struct AdaptiveView {
-  std::array<double, 12> rows{};
-  double near = 0;
+  // Are batches to say where their vertices lie?
+  virtual bool ReadsPlaces() const { return false; }
 };
 
 struct StreamStats {
@@ -144,6 +157,8 @@ class PreparedFractal {
  public:
   virtual ~PreparedFractal() = default;
   virtual size_t RootCount() const = 0;
+  // The coarse vertices that the weights of a place in that element belong to.
+  virtual Triangle Corners(uint32_t element) const = 0;
   // Object space; all that the root can become, rounding included (S7).
   virtual Ball Bound(size_t root) const = 0;
   // patch_hint: about how many leaves to make at a time (256..4096); never changes a bit.
@@ -153,24 +168,24 @@ class PreparedFractal {
   virtual size_t Bytes() const = 0;
 };
 
-enum class Takes : uint8_t { kTriangles = 1, kCurve = 2 };
+// What a method reads of a shape: triangles, a curve, or a mesh of faces of any size.
+enum class Takes : uint8_t { kTriangles = 1, kCurve = 2, kFaces = 3 };
 
-struct MethodInfo {
-  std::string_view name;
-  uint32_t version;  // in the frame key of every frame that uses it (D5)
-  std::string_view summary;
-  Takes takes;
-  FractalSettings defaults;                 // Law, Direction, Variant never kDefault here
-  std::span<const std::string_view> knobs;  // names from AllKnobs()
-  std::span<const Law> laws;
-  std::span<const Direction> directions;
-  std::span<const Variant> variants;
-  std::span<const Split> splits;
-  bool additions;  // knows Increments::kAdditions (affine, EDGE, FIXED)
-  // `view` is needed for Split::kAdaptive only, may be null otherwise.
+// All settings of one object.
+struct MethodSettings : FractalCommon {
+  std::any own;  // the method's struct; empty where there is no method
+};
+
+// An entry of the registry (registry.h): a name, a version, a summary and the table of the method's
+// own knobs, then what is particular to methods.
+struct MethodInfo : EntryInfo {
+  Takes takes = Takes::kTriangles;
+  // `own`: the method's struct, within its table's ranges and rules (PrepareMethod sees to it).
   Result<std::unique_ptr<PreparedFractal>> (*prepare)(CoarseShape shape,
-                                                      const FractalSettings& settings,
-                                                      const AdaptiveView* view);
+                                                      const FractalCommon& common,
+                                                      const std::any& own) = nullptr;
+  // Splits the borders of a mesh alone: what it makes follows their length and not the area.
+  bool borders_only = false;
 };
 
 }  // namespace fjord

@@ -16,21 +16,30 @@ void Patch::Clear(const EdgeSite* edge_sites, bool with_colors, size_t most_vert
   vertex_limit = most_vertices;
   sites = edge_sites;
   colors = with_colors;
+  places = false;
   vertex_count = 0;
   edge_count = 0;
   run_begin = 0;
   long_count = 0;
+  waiting_count = 0;
   triangles.count = 0;
   next.count = 0;
   leaf_count = 0;
 }
 
-uint32_t Patch::AddVertex(const StreamVertex& value, const Rgb& vertex_color) {
+uint32_t Patch::AddVertex(const StreamVertex& value, const Rgb& vertex_color, double eye_distance2,
+                          const Weights& its_place) {
   vertex.Reserve(vertex_count + 1, vertex_count);
   vertex[vertex_count] = value;
+  distance2.Reserve(vertex_count + 1, vertex_count);
+  distance2[vertex_count] = eye_distance2;
   if (colors) {
     color.Reserve(vertex_count + 1, vertex_count);
     color[vertex_count] = vertex_color;
+  }
+  if (places) {
+    place.Reserve(vertex_count + 1, vertex_count);
+    place[vertex_count] = its_place;
   }
   return static_cast<uint32_t>(vertex_count++);
 }
@@ -60,18 +69,23 @@ void Patch::AddTriangle(const Triangle& corners, const Triangle& edges, uint32_t
   ++triangles.count;
 }
 
-PatchStep Patch::Step(const SurfaceRules& rules, uint32_t level) {
-  if (edge_count == run_begin) {
+PatchStep Patch::Step(const SurfaceRules& rules, uint32_t edge_level) {
+  if (edge_count - run_begin + waiting_count == 0) {
     EndTriangles();
     return PatchStep::kDone;
   }
   edge_slot.Reserve(edge_count, run_begin);
-  for (PatchBuffer<uint32_t>* list : {&long_edge, &long_a, &long_b}) {
-    list->Reserve(edge_count - run_begin, 0);
+  const size_t most_long = edge_count - run_begin + waiting_count;
+  for (PatchBuffer<uint32_t>* list : {&long_edge, &long_a, &long_b}) list->Reserve(most_long, 0);
+  long_length2.Reserve(most_long, 0);
+  long_amount.Reserve(most_long, 0);
+  level = edge_level;
+  if (rules.staged()) {
+    waiting.Reserve(most_long, waiting_count);
+    CollectStage(rules, *this);
+  } else {
+    CollectLongEdges(*this, rules.sites);
   }
-  long_length2.Reserve(edge_count - run_begin, 0);
-  long_amount.Reserve(edge_count - run_begin, 0);
-  CollectLongEdges(*this, rules.sites);
   if (long_count == 0 || level >= rules.max_level) {
     EndTriangles();
     return PatchStep::kDone;
@@ -85,6 +99,8 @@ PatchStep Patch::Step(const SurfaceRules& rules, uint32_t level) {
   const size_t edges = halves[1] + padded + 3 * triangles.count;
   vertex.Reserve(vertex_count + long_count, vertex_count);
   if (colors) color.Reserve(vertex_count + long_count, vertex_count);
+  if (rules.staged()) distance2.Reserve(vertex_count + long_count, vertex_count);
+  if (places) place.Reserve(vertex_count + long_count, vertex_count);
   edge_a.Reserve(edges, edge_count);
   edge_b.Reserve(edges, edge_count);
   edge_length2.Reserve(edges, edge_count);
@@ -102,6 +118,11 @@ PatchStep Patch::Step(const SurfaceRules& rules, uint32_t level) {
   if (colors) {
     for (size_t k = 0; k < long_count; ++k) {
       color[midpoints + k] = (color[long_a[k]] + color[long_b[k]]) * .5f;
+    }
+  }
+  if (places) {
+    for (size_t k = 0; k < long_count; ++k) {
+      place[midpoints + k] = (place[long_a[k]] + place[long_b[k]]) * .5;
     }
   }
   run_begin = halves[0];
@@ -130,10 +151,11 @@ std::span<const Triangle> Patch::PackLeaves() {
 }
 
 size_t Patch::Bytes() const {
-  size_t bytes = vertex.bytes() + color.bytes() + edge_a.bytes() + edge_b.bytes() +
-                 edge_site.bytes() + edge_length2.bytes() + edge_current2.bytes() +
-                 edge_slot.bytes() + 3 * long_edge.bytes() + long_length2.bytes() +
-                 long_amount.bytes() + leaf_triangles.bytes();
+  size_t bytes = vertex.bytes() + color.bytes() + place.bytes() + distance2.bytes() +
+                 waiting.bytes() + edge_a.bytes() + edge_b.bytes() + edge_site.bytes() +
+                 edge_length2.bytes() + edge_current2.bytes() + edge_slot.bytes() +
+                 3 * long_edge.bytes() + long_length2.bytes() + long_amount.bytes() +
+                 leaf_triangles.bytes();
   for (const PatchTriangles* list : {&triangles, &next}) {
     for (int k = 0; k < 3; ++k) bytes += list->corner[k].bytes() + list->edge[k].bytes();
     bytes += list->site.bytes();

@@ -5,7 +5,7 @@
 // squared rest length with the sign bit set when it is short, and the number of its EdgeSite; a
 // triangle is three vertices and three edges, edge k from corner k to corner k + 1, the top bit set
 // where the edge is stored the other way round. Edges made by one level are one run, so only the
-// last run can be long.
+// last run can be long; but under ADAPTIVE an edge waits for its stage (stages.h).
 //
 // A level: collect the long edges; make their midpoints and halves; expand triangles sorted by how
 // many long edges they have; those with none become leaves. Every new value is a pure function of
@@ -78,16 +78,19 @@ struct PatchTriangles {
 struct Patch {
   static constexpr uint32_t kFlip = 0x80000000u;
   static constexpr uint32_t kShort = 0xffffffffu;
+  static constexpr uint32_t kWaits = 0xfffffffeu;  // long, but another stage's turn
 
   PatchBuffer<StreamVertex> vertex;
   PatchBuffer<Rgb> color;
+  PatchBuffer<double> distance2;  // as eye_distance2; kept only where SurfaceRules::staged()
+  PatchBuffer<Weights> place;
   size_t vertex_count = 0;
   size_t vertex_limit = 0;
 
   PatchBuffer<uint32_t> edge_a, edge_b, edge_site;
   PatchBuffer<double> edge_length2;   // rest pose; sign bit: short
   PatchBuffer<double> edge_current2;  // now; kept only where SurfaceRules::current()
-  PatchBuffer<uint32_t> edge_slot;    // place among the long edges of this level, or kShort
+  PatchBuffer<uint32_t> edge_slot;    // place among the long edges of this level, kShort, kWaits
   size_t edge_count = 0;
   size_t run_begin = 0;  // edges from here on are the last run
 
@@ -98,6 +101,9 @@ struct Patch {
   size_t long_count = 0;
   size_t halves[2] = {0, 0};  // first and second halves of long edge k: halves[i] + k
   size_t midpoints = 0;       // midpoint of long edge k: midpoints + k
+  uint32_t level = 0;         // of the edges that were halved last; under ADAPTIVE their stage - 1
+  PatchBuffer<uint32_t> waiting;  // long edges that wait for their stage
+  size_t waiting_count = 0;
 
   PatchTriangles triangles;
   PatchTriangles next;
@@ -106,17 +112,19 @@ struct Patch {
   PatchBuffer<Triangle> leaf_triangles;  // filled by PackLeaves
 
   bool colors = false;
+  bool places = false;  // set after Clear, before AddVertex
   const EdgeSite* sites = nullptr;
 
   // Empties the tables.
   void Clear(const EdgeSite* edge_sites, bool with_colors, size_t most_vertices);
-  uint32_t AddVertex(const StreamVertex& value, const Rgb& vertex_color);
+  uint32_t AddVertex(const StreamVertex& value, const Rgb& vertex_color, double eye_distance2,
+                     const Weights& its_place = {});
   // `length2`: as stored. A new run begins with the first edge after Clear.
   uint32_t AddEdge(uint32_t a, uint32_t b, double length2, double current2, uint32_t site);
   void AddTriangle(const Triangle& corners, const Triangle& edges, uint32_t site, bool sites_kept);
 
-  // One level; `level` is that of the edges of the last run.
-  PatchStep Step(const SurfaceRules& rules, uint32_t level);
+  // One level; `edge_level` is that of the edges of the last run, not read under ADAPTIVE.
+  PatchStep Step(const SurfaceRules& rules, uint32_t edge_level);
   // Leaves so far, as index triples.
   std::span<const Triangle> PackLeaves();
   size_t Bytes() const;
@@ -130,6 +138,7 @@ struct Patch {
 // their vertices.
 void MeasureEdges(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end);
 void CollectLongEdges(Patch& patch, bool keep_numbers);
+void CollectStage(const SurfaceRules& rules, Patch& patch);  // patch_stages.cpp
 void MeasureAmounts(const SurfaceRules& rules, Patch& patch);
 void SplitEdges(const SurfaceRules& rules, Patch& patch, uint32_t level);
 void SplitTriangles(const SurfaceRules& rules, Patch& patch);

@@ -65,11 +65,21 @@ HWY_INLINE VF WithShortSign(VF length2, MF is_long) {
   return hn::IfThenElse(is_long, length2, hn::Or(length2, hn::Set(d, -0.0)));
 }
 
+// Stages::Length2(Stages::StageOf(length2)), bit for bit; 0 for 0.
+HWY_INLINE VF StageLength2(const Stages& stages, VF length2) {
+  const DF d;
+  const VU even_exponent = hn::Set(DU(), uint64_t{0x7fe0000000000000u});
+  const VU bits = hn::BitCast(DU(), length2 * hn::Set(d, stages.twice_inverse2));
+  return hn::BitCast(d, hn::And(bits, even_exponent)) * hn::Set(d, stages.half_unit2);
+}
+
 // length2 with its sign set where short. Ends' squared eye distances a, b are read by distance
-// only.
+// only. kStaged: SurfaceRules::staged().
+template <bool kStaged>
 HWY_INLINE VF Flagged(const SurfaceRules& rules, VF length2, VF a, VF b) {
   const DF d;
-  const VF left = length2 * hn::Set(d, rules.length_scale);
+  const VF size = kStaged ? StageLength2(rules.stages, length2) : length2;
+  const VF left = size * hn::Set(d, rules.length_scale);
   return WithShortSign(length2, hn::Gt(left, LongSide(rules, MiddleDistance2(a, b, length2))));
 }
 

@@ -25,14 +25,19 @@ void MeasureEdgesLanes(const SurfaceRules& rules, Patch& patch, size_t begin, si
     const VF rest2 = hn::Abs(hn::LoadU(d, &patch.edge_length2[i]));
     const Columns a = LoadVertices(patch.vertex.data(), &patch.edge_a[i]);
     const Columns b = LoadVertices(patch.vertex.data(), &patch.edge_b[i]);
-    if (rules.current()) {
+    if (rules.staged()) {
+      const double* distance2 = patch.distance2.data();
+      const VF da = Gather(distance2, hn::LoadU(DN(), &patch.edge_a[i]));
+      const VF db = Gather(distance2, hn::LoadU(DN(), &patch.edge_b[i]));
+      hn::StoreU(Flagged<true>(rules, rest2, da, db), d, &patch.edge_length2[i]);
+    } else if (rules.current()) {
       const Triple e = Between(a, b);
       const VF current2 = Dot(e, e);
       const Sides sides = CurrentSides(rules, a, b, current2);
       hn::StoreU(current2, d, &patch.edge_current2[i]);
       hn::StoreU(WithShortSign(rest2, hn::Gt(sides.left, sides.right)), d, &patch.edge_length2[i]);
     } else {
-      const VF flagged = Flagged(rules, rest2, FloatOf<true>(a.v[7]), FloatOf<true>(b.v[7]));
+      const VF flagged = Flagged<false>(rules, rest2, FloatOf<true>(a.v[7]), FloatOf<true>(b.v[7]));
       hn::StoreU(flagged, d, &patch.edge_length2[i]);
     }
   }
@@ -72,7 +77,7 @@ void MeasureAmountsLanes(const SurfaceRules& rules, Patch& patch) {
   }
 }
 
-// kPlain: direction VERTEX, variant FIXED, law affine, split by the rest pose, no coast: what most
+// kPlain: direction VERTEX, variant FIXED, law affine, split SHOT, no coast: what most
 // pictures use, with nothing left to ask inside the loop.
 template <bool kPlain>
 HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t level) {
@@ -93,6 +98,8 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
   const auto midpoints = static_cast<uint32_t>(patch.midpoints);
   const bool current = !kPlain && rules.current();
   const bool sites = !kPlain && rules.sites;
+  const bool staged = !kPlain && rules.staged();
+  const StageWeight weight(rules, staged ? level + 1 : 1);
   for (size_t k = 0; k < n; k += kLanes) {
     const size_t lanes = n - k < kLanes ? n - k : kLanes;
     const VF rest2 = hn::LoadU(d, &patch.long_length2[k]);
@@ -118,6 +125,19 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
     VF offset = (hn::LoadU(d, &patch.long_amount[k]) * stretch) * g;
     if (!kPlain) Bend(rules, level, a, b, g, coast, way, offset);
 
+    VF da = FloatOf<true>(a.v[7]), db = FloatOf<true>(b.v[7]);
+    if (staged) {
+      da = Gather(patch.distance2.data(), hn::LoadU(dn, list_a + k));
+      db = Gather(patch.distance2.data(), hn::LoadU(dn, list_b + k));
+    }
+    VF distance2 = MiddleDistance2(da, db, rest2);
+    if (staged) {
+      // Never below 0, and kept as it is: as a float it would move in steps.
+      distance2 = hn::IfThenElseZero(hn::Gt(distance2, zero), distance2);
+      hn::StoreU(distance2, d, &patch.distance2[patch.midpoints + k]);
+      offset = offset * weight(distance2);
+    }
+
     Columns m;
     m.v[0] = (a.v[0] + b.v[0]) * half + way.x * offset;
     m.v[1] = (a.v[1] + b.v[1]) * half + way.y * offset;
@@ -126,8 +146,6 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
     m.v[4] = normal.y;
     m.v[5] = normal.z;
     m.v[6] = hn::BitCast(d, id);
-    const VF da = FloatOf<true>(a.v[7]), db = FloatOf<true>(b.v[7]);
-    VF distance2 = MiddleDistance2(da, db, rest2);
     if (current) {
       const VF x = m.v[0] - hn::Set(d, rules.eye.x), y = m.v[1] - hn::Set(d, rules.eye.y),
                z = m.v[2] - hn::Set(d, rules.eye.z);
@@ -145,9 +163,11 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
     VF first2 = rest2 * quarter;
     VF second2 = first2;
     if (!current) {
-      const VF dm = hn::PromoteTo(d, distance_float);
-      second2 = Flagged(rules, first2, dm, db);
-      first2 = Flagged(rules, first2, da, dm);
+      const VF dm = staged ? distance2 : hn::PromoteTo(d, distance_float);
+      second2 =
+          staged ? Flagged<true>(rules, first2, dm, db) : Flagged<false>(rules, first2, dm, db);
+      first2 =
+          staged ? Flagged<true>(rules, first2, da, dm) : Flagged<false>(rules, first2, da, dm);
     }
     const size_t first = halves[0] + k, second = halves[1] + k;
     const VN middle = hn::Iota(dn, midpoints + static_cast<uint32_t>(k));
@@ -172,7 +192,7 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
 
 void SplitEdgesLanes(const SurfaceRules& rules, Patch& patch, uint32_t level) {
   const bool plain = rules.direction == Direction::kVertex && rules.variant == Variant::kFixed &&
-                     rules.law == Law::kAffine && !rules.current() && !rules.sites;
+                     rules.law == Law::kAffine && rules.split == Split::kShot && !rules.sites;
   if (plain) {
     SplitEdgesBy<true>(rules, patch, level);
   } else {

@@ -8,6 +8,8 @@
 #define FJORD_ENGINE_FRACTAL_PATCH_MOVES_INL_H_
 #endif
 
+#include <cmath>
+
 #include "engine/base/random.h"
 #include "engine/fractal/amount.h"
 #include "engine/fractal/patch_lanes-inl.h"
@@ -97,7 +99,7 @@ HWY_INLINE VF TangentLanes(VU id) {
   return (WholeLanes(sum + sum) - hn::Set(d, 3 * 65535.0)) / hn::Set(d, 6.0 * 65535.0);
 }
 
-// Both sides of the split rule where it reads the frame's own lengths (kLength, kAdaptive).
+// Both sides of the split rule where it reads the frame's own lengths.
 struct Sides {
   VF left, right;
 };
@@ -105,37 +107,40 @@ HWY_INLINE Sides CurrentSides(const SurfaceRules& rules, const Columns& a, const
                               VF current2) {
   const DF d;
   const VF middle2 = MiddleDistance2(FloatOf<true>(a.v[7]), FloatOf<true>(b.v[7]), current2);
-  Sides sides{current2 * hn::Set(d, rules.length_scale), LongSide(rules, middle2)};
-  if (rules.split != Split::kAdaptive) return sides;
-  const auto row = [&](const Columns& c, int r) {
-    const double* m = &rules.view.rows[static_cast<size_t>(r) * 4];
-    return ((c.v[0] * hn::Set(d, m[0]) + c.v[1] * hn::Set(d, m[1])) + c.v[2] * hn::Set(d, m[2])) +
-           hn::Set(d, m[3]);
-  };
-  const VF wa = row(a, 2), wb = row(b, 2);
-  const VF near = hn::Set(d, rules.view.near);
-  const MF before = hn::And(hn::Gt(wa, near), hn::Gt(wb, near));
-  const VF u = row(a, 0) * wb - row(b, 0) * wa;
-  const VF v = row(a, 1) * wb - row(b, 1) * wa;
-  const VF ww = wa * wb;
-  sides.left = hn::IfThenElse(before, u * u + v * v, sides.left);
-  sides.right = hn::IfThenElse(before, hn::Set(d, rules.pixels2) * (ww * ww), sides.right);
-  return sides;
+  return {current2 * hn::Set(d, rules.length_scale), LongSide(rules, middle2)};
 }
 
 HWY_INLINE Triple Between(const Columns& a, const Columns& b) {
   return {b.v[0] - a.v[0], b.v[1] - a.v[1], b.v[2] - a.v[2]};
 }
 
-// How far the last level has faded in: 0 where the edge has just become long, 1 from twice that on.
-HWY_INLINE VF Fade(const SurfaceRules& rules, const Columns& a, const Columns& b, VF current2) {
-  const DF d;
-  const VF one = hn::Set(d, 1.0);
-  const Sides sides = CurrentSides(rules, a, b, current2);
-  const VF past = hn::Sqrt(sides.left / sides.right) - one;
-  const VF t = hn::IfThenElse(hn::Lt(past, one), past, one);
-  return (t * t) * (hn::Set(d, 3.0) - (t + t));
-}
+// The weight of midpoints of one stage at this squared distance from the eye (stages.h C2).
+class StageWeight {
+ public:
+  StageWeight(const SurfaceRules& rules, uint32_t stage) : rules_(rules) {
+    const double length = std::sqrt(rules.stages.Length2(stage));
+    start_ = rules.stages.start * length;
+    inverse_ = 1 / (start_ - rules.stages.full * length);
+  }
+  HWY_INLINE VF operator()(VF distance2) const {
+    const DF d;
+    const VF zero = hn::Zero(d), one = hn::Set(d, 1.0);
+    VF distance = hn::Sqrt(hn::Set(d, rules_.floor));
+    if (ByDistance(rules_)) {
+      const VF clear = hn::Sqrt(distance2) - hn::Set(d, rules_.eye_radius);
+      distance = Larger(clear, hn::Set(d, rules_.near));
+    }
+    const VF past = (hn::Set(d, start_) - distance) * hn::Set(d, inverse_);
+    const VF above = hn::IfThenElseZero(hn::Gt(past, zero), past);
+    const VF t = hn::IfThenElse(hn::Lt(above, one), above, one);
+    return (t * t) * (hn::Set(d, 3.0) - (t + t));
+  }
+
+ private:
+  const SurfaceRules& rules_;
+  double start_;
+  double inverse_;
+};
 
 HWY_INLINE VF ClampedShare(VF share) {
   const DF d;
@@ -144,7 +149,7 @@ HWY_INLINE VF ClampedShare(VF share) {
   return hn::IfThenElse(hn::Lt(above, most), above, most);
 }
 
-// Everything but the plain case: laws that read current lengths, variants, coasts, fading. `way`
+// Everything but the plain case: laws that read current lengths, variants, coasts. `way`
 // comes as the kept direction, `offset` as the affine law's.
 HWY_INLINE void Bend(const SurfaceRules& rules, uint32_t level, const Columns& a, const Columns& b,
                      VF g, VF coast, Triple& way, VF& offset) {
@@ -180,7 +185,6 @@ HWY_INLINE void Bend(const SurfaceRules& rules, uint32_t level, const Columns& a
     way = Select(is_coast, {e.y, zero - e.x, zero}, way);
     offset = hn::IfThenElse(is_coast, hn::IfThenElse(first, moved, zero - moved), offset);
   }
-  if (rules.split == Split::kAdaptive) offset = offset * Fade(rules, a, b, current2);
 }
 
 }  // namespace HWY_NAMESPACE

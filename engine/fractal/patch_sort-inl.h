@@ -1,5 +1,6 @@
 // Triangles sorted by how many long edges they have, turned so that the long ones come first; those
-// with none are leaves. Compiled once per SIMD target.
+// with none are leaves, or, under ADAPTIVE, wait with an edge for its stage. Compiled once per SIMD
+// target.
 
 #if defined(FJORD_ENGINE_FRACTAL_PATCH_SORT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FJORD_ENGINE_FRACTAL_PATCH_SORT_INL_H_
@@ -18,6 +19,8 @@ namespace fjord {
 namespace HWY_NAMESPACE {
 
 constexpr size_t kBlock = 256;  // triangles sorted at a time
+constexpr int kLeaves = 3;      // cases: one, two, three long edges, leaves, those that wait
+constexpr int kWaiting = 4;
 
 // Triangles of one case: corners, edges, slots of the long edges, site.
 struct CaseList {
@@ -32,27 +35,30 @@ struct CaseList {
 // One at a time: which case, and which edge comes first, looked up by the three flags.
 HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end,
                           CaseList* lists) {
-  static constexpr uint8_t kCase[8] = {3, 0, 0, 1, 0, 1, 1, 2};  // 3: leaf
+  static constexpr uint8_t kCase[8] = {kLeaves, 0, 0, 1, 0, 1, 1, 2};
   static constexpr uint8_t kTurn[8] = {0, 0, 1, 0, 2, 2, 1, 0};
   const PatchTriangles& from = patch.triangles;
   const uint32_t* slots = patch.edge_slot.data();
-  size_t count[4] = {};
+  size_t count[5] = {};
   for (size_t t = begin; t < end; ++t) {
     uint32_t v[5], e[5], s[5];
     uint32_t flags = 0;
+    bool waits = false;
     for (uint32_t k = 0; k < 3; ++k) {
       v[k] = from.corner[k][t];
       e[k] = from.edge[k][t];
       s[k] = slots[e[k] & ~Patch::kFlip];
-      flags |= (s[k] != Patch::kShort ? 1u : 0u) << k;
+      flags |= (s[k] < Patch::kWaits ? 1u : 0u) << k;
+      waits |= s[k] == Patch::kWaits;
     }
     for (uint32_t k = 0; k < 2; ++k) {
       v[3 + k] = v[k];
       e[3 + k] = e[k];
       s[3 + k] = s[k];
     }
-    CaseList& list = lists[kCase[flags]];
-    const size_t at = count[kCase[flags]]++;
+    const int which = flags == 0 && waits ? kWaiting : kCase[flags];
+    CaseList& list = lists[which];
+    const size_t at = count[which]++;
     const uint32_t turn = kTurn[flags];
     for (uint32_t k = 0; k < 3; ++k) {
       list.corner[k][at] = v[k + turn];
@@ -61,22 +67,40 @@ HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin,
     }
     if (rules.sites) list.site[at] = from.site[t];
   }
-  for (int i = 0; i < 4; ++i) lists[i].count = count[i];
+  for (int i = 0; i < 5; ++i) lists[i].count = count[i];
   for (int k = 0; k < 3; ++k) {
-    std::memcpy(&patch.leaf[k][patch.leaf_count], lists[3].corner[k], count[3] * sizeof(uint32_t));
+    std::memcpy(&patch.leaf[k][patch.leaf_count], lists[kLeaves].corner[k],
+                count[kLeaves] * sizeof(uint32_t));
   }
-  patch.leaf_count += count[3];
+  patch.leaf_count += count[kLeaves];
 }
 #else
 HWY_INLINE V32 Turned(V32 by0, V32 by1, V32 by2, M32 turn1, M32 turn2) {
   return hn::IfThenElse(turn2, by2, hn::IfThenElse(turn1, by1, by0));
 }
 
+// Triangles t.. of the mask, as they are.
+HWY_INLINE void Append(M32 mask, const V32* v, const V32* e, const Patch& patch, size_t t,
+                       const SurfaceRules& rules, CaseList& list) {
+  const D32 d;
+  const Compactor front(mask);
+  for (int k = 0; k < 3; ++k) {
+    hn::StoreU(front(v[k]), d, &list.corner[k][list.count]);
+    hn::StoreU(front(e[k]), d, &list.edge[k][list.count]);
+  }
+  if (rules.sites) {
+    hn::StoreU(front(hn::LoadU(d, &patch.triangles.site[t])), d, &list.site[list.count]);
+  }
+  list.count += hn::CountTrue(d, mask);
+}
+
 HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end,
                           CaseList* lists) {
   const D32 d;
   const V32 index_bits = hn::Set(d, ~Patch::kFlip), short_slot = hn::Set(d, Patch::kShort);
-  for (int i = 0; i < 3; ++i) lists[i].count = 0;
+  const V32 waiting_slot = hn::Set(d, Patch::kWaits);
+  const bool staged = rules.staged();
+  for (const int i : {0, 1, 2, kWaiting}) lists[i].count = 0;
   const PatchTriangles& from = patch.triangles;
   for (size_t t = begin; t < end; t += kLanes32) {
     const M32 valid = hn::FirstN(d, end - t);
@@ -89,8 +113,20 @@ HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin,
       s[k] = Gather(patch.edge_slot.data(), index);
       split[k] = hn::And(valid, hn::Ne(s[k], short_slot));
     }
+    M32 leaf = valid;
+    if (staged) {
+      M32 its[3];
+      for (int k = 0; k < 3; ++k) {
+        its[k] = hn::And(valid, hn::Eq(s[k], waiting_slot));
+        split[k] = hn::AndNot(its[k], split[k]);
+      }
+      const M32 waits = hn::Or(its[0], hn::Or(its[1], its[2]));
+      leaf = hn::AndNot(waits, valid);
+      Append(hn::AndNot(hn::Or(split[0], hn::Or(split[1], split[2])), waits), v, e, patch, t, rules,
+             lists[kWaiting]);
+    }
     const M32 any = hn::Or(split[0], hn::Or(split[1], split[2]));
-    const M32 leaf = hn::AndNot(any, valid);
+    leaf = hn::AndNot(any, leaf);
     const Compactor leaf_front(leaf);
     for (int k = 0; k < 3; ++k) hn::StoreU(leaf_front(v[k]), d, &patch.leaf[k][patch.leaf_count]);
     patch.leaf_count += hn::CountTrue(d, leaf);

@@ -24,6 +24,7 @@ namespace fjord {
 namespace HWY_NAMESPACE {
 
 constexpr size_t kLanes = hn::MaxLanes(DF());
+
 // N triangles of one case on their way to children.
 class Expander {
  public:
@@ -93,6 +94,18 @@ class Expander {
       AddTriangle(m_[2], m_[1], v_[2], Back(p1), Second(1), First(2));
       AddTriangle(m_[0], m_[1], m_[2], p0, p1, p2);
     }
+  }
+
+  // Those that wait stay as they are.
+  void Keep(const CaseList& list) {
+    for (int k = 0; k < 3; ++k) {
+      std::memcpy(corner_[k] + triangles_, list.corner[k], list.count * sizeof(uint32_t));
+      std::memcpy(edge_[k] + triangles_, list.edge[k], list.count * sizeof(uint32_t));
+    }
+    if (rules_.sites) {
+      std::memcpy(&patch_.next.site[triangles_], list.site, list.count * sizeof(uint32_t));
+    }
+    triangles_ += list.count;
   }
 
  private:
@@ -168,7 +181,9 @@ class Expander {
     if (!rules_.current()) {
       const VF zero = hn::Zero(DF());
       const bool far = ByDistance(rules_);
-      length2 = Flagged(rules_, length2, far ? Distance2(a) : zero, far ? Distance2(b) : zero);
+      const VF from = far ? Distance2(a) : zero, to = far ? Distance2(b) : zero;
+      length2 = rules_.staged() ? Flagged<true>(rules_, length2, from, to)
+                                : Flagged<false>(rules_, length2, from, to);
     }
     hn::StoreU(length2, DF(), edge_length2_ + at);
     if (rules_.sites) hn::StoreU(site_, dn, &patch_.edge_site[at]);
@@ -177,6 +192,7 @@ class Expander {
   }
 
   VF Distance2(VN index) const {
+    if (rules_.staged()) return Gather(patch_.distance2.data(), index);
     // A vertex is 16 floats.
     const float* floats = &patch_.vertex[0].eye_distance2;
     return hn::PromoteTo(DF(), Gather(floats, hn::ShiftLeft<4>(index)));
@@ -211,7 +227,7 @@ class Expander {
 };
 
 void SplitTrianglesLanes(const SurfaceRules& rules, Patch& patch) {
-  CaseList lists[4];  // the last: leaves, where they are sorted one at a time
+  CaseList lists[5];
   Expander expander(rules, patch);
   for (size_t begin = 0; begin < patch.triangles.count; begin += kBlock) {
     const size_t left = patch.triangles.count - begin;
@@ -219,6 +235,7 @@ void SplitTrianglesLanes(const SurfaceRules& rules, Patch& patch) {
     expander.One(lists[0]);
     expander.Two(lists[1]);
     expander.Three(lists[2]);
+    if (rules.staged()) expander.Keep(lists[kWaiting]);
   }
   expander.Finish();
 }

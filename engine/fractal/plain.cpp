@@ -26,6 +26,10 @@ class PreparedPlain final : public PreparedFractal {
 
   size_t RootCount() const override { return (ElementCount() + kRun - 1) / kRun; }
 
+  Triangle Corners(uint32_t element) const override {
+    return {Vertex(element, 0), Vertex(element, 1), Vertex(element, shape_.curve ? 1 : 2)};
+  }
+
   Ball Bound(size_t root) const override {
     Vec3 low = Corner(root * kRun, 0), high = low;
     ForEachCorner(root, [&](const Vec3& p) {
@@ -42,14 +46,25 @@ class PreparedPlain final : public PreparedFractal {
   StreamStats Stream(size_t root, StreamSink& sink, size_t) const override {
     StreamStats stats;
     std::vector<StreamVertex> vertices;
-    std::vector<Rgb> colors;
+    std::vector<Weights> places;
+    const bool places_read = sink.ReadsPlaces();
     std::vector<Triangle> triangles;
     std::vector<std::array<uint32_t, 2>> segments;
     const auto add = [&](size_t element, int corner) {
       const uint32_t v = Vertex(element, corner);
       vertices.push_back(vertices_[v]);
-      if (!shape_.colors.empty()) colors.push_back(shape_.colors[v]);
+      if (places_read) places.push_back(Weights(corner == 0, corner == 1, corner == 2));
       return static_cast<uint32_t>(vertices.size() - 1);
+    };
+    // Places are those of one element: then each element is a batch of its own.
+    const auto give = [&](size_t element) {
+      if (vertices.empty()) return;
+      sink.Take({vertices, triangles, segments, places, static_cast<uint32_t>(element)});
+      stats.triangles += triangles.size();
+      vertices.clear();
+      triangles.clear();
+      segments.clear();
+      places.clear();
     };
     const size_t end = std::min(ElementCount(), (root + 1) * kRun);
     for (size_t i = root * kRun; i < end; ++i) {
@@ -64,9 +79,9 @@ class PreparedPlain final : public PreparedFractal {
         const uint32_t b = add(i, 1);
         triangles.push_back({a, b, add(i, 2)});
       }
+      if (places_read) give(i);
     }
-    stats.triangles = triangles.size();
-    if (!vertices.empty()) sink.Take({vertices, triangles, segments, colors});
+    give(root * kRun);
     return stats;
   }
 

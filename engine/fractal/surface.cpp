@@ -61,7 +61,9 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
     position_slack_ = coarse_.largest * 1e-12;
     Patch patch;
     patch.Clear(nullptr, false, kMostPoints);
-    for (const StreamVertex& v : coarse_.vertices) patch.AddVertex(v, Rgb(0));
+    for (size_t v = 0; v < coarse_.vertices.size(); ++v) {
+      patch.AddVertex(coarse_.vertices[v], Rgb(0), coarse_.eye_distance2[v]);
+    }
     for (const CoarseEdge& e : coarse_.edges) patch.AddEdge(e.a, e.b, e.length2, e.current2, 0);
     if (patch.edge_count > 0) MeasureEdges(rules_, patch, 0, patch.edge_count);
     for (size_t i = 0; i < coarse_.edges.size(); ++i) {
@@ -70,6 +72,8 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
   }
 
   size_t RootCount() const override { return coarse_.triangles.size(); }
+
+  Triangle Corners(uint32_t element) const override { return coarse_.triangles[element]; }
 
   Ball Bound(size_t root) const override {
     const PatchRoot r = CoarseRoot(root);
@@ -100,8 +104,8 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
         continue;
       }
       const bool small = ExpectedLeaves(next) <= static_cast<double>(hint);
-      if (!small || !Expand(next, sites.data(), hint, space.patch, sink, stats)) {
-        Cut(next, sites.data(), space, stats);
+      if (!small || !Expand(next, root, sites.data(), hint, space.patch, sink, stats)) {
+        Cut(next, sites.data(), sink.ReadsPlaces(), space, stats);
       }
     }
     return stats;
@@ -126,7 +130,9 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
       const uint32_t v = coarse_.triangles[root][k];
       const CoarseEdge& edge = coarse_.edges[coarse_.triangle_edges[root][k]];
       r.vertex[k] = coarse_.vertices[v];
+      r.eye_distance2[k] = coarse_.eye_distance2[v];
       if (!coarse_.colors.empty()) r.color[k] = coarse_.colors[v];
+      r.place[k] = Weights(k == 0, k == 1, k == 2);
       r.length2[k] = edge.length2;
       r.current2[k] = edge.current2;
       r.site[k] = static_cast<uint32_t>(k + 1);
@@ -141,9 +147,19 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
     return coast ? rules_ : inland_;
   }
 
+  // The lowest level of its edges that can still be halved.
+  uint32_t LevelOf(const PatchRoot& root) const {
+    if (!rules_.staged()) return root.level;
+    uint32_t level = rules_.max_level;
+    for (const double length2 : root.length2) {
+      if (!PatchIsShort(length2)) level = std::min(level, rules_.stages.StageOf(length2) - 1);
+    }
+    return level;
+  }
+
   StreamReach ReachOf(const PatchRoot& root, const EdgeSite* sites) const {
     ReachInput input;
-    input.level = root.level;
+    input.level = LevelOf(root);
     input.stretch = 0;
     for (int k = 0; k < 3; ++k) {
       const Vec3 edge = root.vertex[(k + 1) % 3].position - root.vertex[k].position;
@@ -180,7 +196,7 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
   // About how many leaves a triangle becomes: a leaf has edges of half to once the longest short
   // length, so the square of the longest edge over that length, times 2 to 4.
   double ExpectedLeaves(const PatchRoot& root) const override {
-    if (root.level >= rules_.max_level) return 1;
+    if (LevelOf(root) >= rules_.max_level) return 1;
     double most = 0;
     for (int k = 0; k < 3; ++k) {
       if (PatchIsShort(root.length2[k])) continue;
@@ -196,13 +212,17 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
       }
       most = std::max(most, length2 * rules_.length_scale / side);
     }
-    return most * 1.25;
+    // A stage's edges are longer than its own length.
+    return most * (rules_.staged() ? .6 : 1.25);
   }
 
   void Load(const PatchRoot& root, uint32_t first_site, bool sites_kept,
             Patch& patch) const override {
     Triangle corners, edges;
-    for (size_t k = 0; k < 3; ++k) corners[k] = patch.AddVertex(root.vertex[k], root.color[k]);
+    for (size_t k = 0; k < 3; ++k) {
+      corners[k] =
+          patch.AddVertex(root.vertex[k], root.color[k], root.eye_distance2[k], root.place[k]);
+    }
     for (size_t k = 0; k < 3; ++k) {
       edges[k] = patch.AddEdge(corners[k], corners[(k + 1) % 3], root.length2[k], root.current2[k],
                                first_site + root.site[k]);
@@ -211,19 +231,21 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
   }
 
   // False where the tables would grow far beyond what was expected; nothing was emitted.
-  bool Expand(const PatchRoot& root, const EdgeSite* sites, size_t hint, Patch& patch,
-              StreamSink& sink, StreamStats& stats) const {
+  bool Expand(const PatchRoot& root, size_t element, const EdgeSite* sites, size_t hint,
+              Patch& patch, StreamSink& sink, StreamStats& stats) const {
     const SurfaceRules& rules = RulesOf(root, sites);
-    patch.Clear(sites, !coarse_.colors.empty(), 3 * hint + 64);
+    patch.Clear(sites, false, 3 * hint + 64);
+    patch.places = sink.ReadsPlaces();
     Load(root, 0, rules.sites, patch);
     uint32_t level = root.level;
     PatchStep step;
-    while ((step = patch.Step(rules, level)) == PatchStep::kSplit) ++level;
+    while ((step = patch.Step(rules, level)) == PatchStep::kSplit) level = patch.level + 1;
     if (step == PatchStep::kFull) return false;
     StreamBatch batch;
     batch.vertices = {patch.vertex.data(), patch.vertex_count};
     batch.triangles = patch.PackLeaves();
-    if (patch.colors) batch.colors = {patch.color.data(), patch.vertex_count};
+    if (patch.places) batch.places = {patch.place.data(), patch.vertex_count};
+    batch.element = static_cast<uint32_t>(element);
     stats.midpoints += patch.vertex_count - 3;
     stats.triangles += patch.leaf_count;
     stats.depth = std::max(stats.depth, level);
@@ -232,16 +254,17 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
   }
 
   // One level, then every triangle becomes a root of its own.
-  void Cut(const PatchRoot& root, const EdgeSite* sites, Workspace& space,
+  void Cut(const PatchRoot& root, const EdgeSite* sites, bool places, Workspace& space,
            StreamStats& stats) const {
     Patch& patch = space.patch;
     const SurfaceRules& rules = RulesOf(root, sites);
-    patch.Clear(sites, !coarse_.colors.empty(), kMostPoints);
+    patch.Clear(sites, false, kMostPoints);
+    patch.places = places;
     Load(root, 0, rules.sites, patch);
     const PatchStep step = patch.Step(rules, root.level);
     FJORD_CHECK(step == PatchStep::kSplit, root.level);
     stats.midpoints += patch.vertex_count - 3;
-    stats.depth = std::max(stats.depth, root.level + 1);
+    stats.depth = std::max(stats.depth, patch.level + 1);
     for (size_t t = patch.triangles.count; t-- > 0;) {
       space.stack.push_back(ChildOf(root, patch, t, rules.sites));
     }
@@ -255,7 +278,9 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
       const uint32_t v = patch.triangles.corner[k][t];
       const uint32_t e = patch.triangles.edge[k][t] & ~Patch::kFlip;
       child.vertex[k] = patch.vertex[v];
+      if (rules_.staged()) child.eye_distance2[k] = patch.distance2[v];
       if (patch.colors) child.color[k] = patch.color[v];
+      if (patch.places) child.place[k] = patch.place[v];
       child.length2[k] = patch.edge_length2[e];
       child.current2[k] = patch.edge_current2[e];
       child.site[k] = sites_kept ? patch.edge_site[e] : 0;
@@ -274,12 +299,14 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
 }  // namespace
 
 Result<std::unique_ptr<PreparedFractal>> PrepareSurface(CoarseShape shape,
-                                                        const FractalSettings& settings,
-                                                        const AdaptiveView* view) {
-  const Result<SurfaceRules> rules = MakeSurfaceRules(settings, view);
+                                                        const FractalSettings& settings) {
+  Result<SurfaceRules> rules = MakeSurfaceRules(settings);
   if (!rules.ok()) return rules.error();
   Result<CoarseSurface> coarse = MakeCoarseSurface(shape, *rules, settings.seed, settings.stretch);
   if (!coarse.ok()) return coarse.error();
+  double longest2 = 0;
+  for (const CoarseEdge& edge : coarse->edges) longest2 = std::max(longest2, edge.length2);
+  rules->stages.SetUnit(longest2);
   return std::unique_ptr<PreparedFractal>(
       std::make_unique<PreparedSurface>(std::move(*coarse), *rules, settings.seed));
 }

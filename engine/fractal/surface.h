@@ -31,7 +31,6 @@ namespace fjord {
 // kInvalid where the shape is no mesh, its arrays do not fit together, the settings are not the
 // method's, or the fineness would never end.
 Result<std::unique_ptr<PreparedFractal>> PrepareSurface(CoarseShape shape,
-                                                        const FractalSettings& settings,
-                                                        const AdaptiveView* view);
+                                                        const FractalSettings& settings);
 
 }  // namespace fjord

@@ -113,6 +113,7 @@ Result<CoarseSurface> MakeCoarseSurface(const CoarseShape& shape, const SurfaceR
       stretch ? Stretches(coarse, now.size()) : std::vector<float>(now.size(), 1);
   for (size_t v = 0; v < now.size(); ++v) {
     const double eye2 = Length2((rules.current() ? now[v] : shape.rest[v]) - rules.eye);
+    coarse.eye_distance2.push_back(eye2);
     coarse.vertices.push_back({now[v],
                                rules.direction == Direction::kUp ? Vec3(0, 0, 1) : normals[v],
                                CoarseIdentity(seed, v).lo, stretches[v], ClampToFloat(eye2)});

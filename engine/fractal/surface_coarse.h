@@ -24,6 +24,7 @@ struct CoarseEdge {
 
 struct CoarseSurface {
   std::vector<StreamVertex> vertices;
+  std::vector<double> eye_distance2;     // of the vertices, not rounded to floats
   std::vector<Rgb> colors;               // none, or one a vertex
   std::vector<Triangle> triangles;       // smallest number first
   std::vector<Triangle> triangle_edges;  // edge k from corner k to k + 1
@@ -32,8 +33,9 @@ struct CoarseSurface {
   double largest = 0;  // largest absolute coordinate
 
   size_t Bytes() const {
-    return VectorBytes(vertices) + VectorBytes(colors) + VectorBytes(triangles) +
-           VectorBytes(triangle_edges) + VectorBytes(face_normals) + VectorBytes(edges);
+    return VectorBytes(vertices) + VectorBytes(eye_distance2) + VectorBytes(colors) +
+           VectorBytes(triangles) + VectorBytes(triangle_edges) + VectorBytes(face_normals) +
+           VectorBytes(edges);
   }
 
   // Site of side k of a triangle, k = 3: of its inside.

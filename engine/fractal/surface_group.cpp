@@ -51,7 +51,9 @@ void SurfaceGroup::Follow() {
 bool SurfaceGroup::Expand(const SurfaceRules& rules, uint32_t level) {
   Begin();
   PatchStep step;
-  for (; (step = patch_.Step(rules, level)) == PatchStep::kSplit; ++level) Follow();
+  for (; (step = patch_.Step(rules, level)) == PatchStep::kSplit; level = patch_.level + 1) {
+    Follow();
+  }
   return step == PatchStep::kDone;
 }
 
@@ -61,10 +63,10 @@ bool SurfaceGroup::Expand(const SurfaceRules& rules, uint32_t level,
   upper_.assign(corners.begin(), corners.end());
   level_.assign(corners.size(), 0);
   PatchStep step;
-  for (; (step = patch_.Step(rules, level)) == PatchStep::kSplit; ++level) {
+  for (; (step = patch_.Step(rules, level)) == PatchStep::kSplit; level = patch_.level + 1) {
     Follow();
     upper_.resize(patch_.vertex_count);
-    level_.resize(patch_.vertex_count, static_cast<uint8_t>(level + 1));
+    level_.resize(patch_.vertex_count, static_cast<uint8_t>(patch_.level + 1));
     for (size_t k = 0; k < patch_.long_count; ++k) {
       const Identity a{0, upper_[patch_.long_a[k]]}, b{0, upper_[patch_.long_b[k]]};
       upper_[patch_.midpoints + k] = MidpointIdentity(a, b).hi;

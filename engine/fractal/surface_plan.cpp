@@ -135,7 +135,7 @@ void SurfacePlan::Cut(const Part& part, const PatchRoot& root, const EdgeSite* s
       const uint32_t middle =
           AddPoint(cut_.vertex[made], colored ? cut_.color[made] : Rgb(0),
                    MidpointIdentity(shape.identity[whole.a], shape.identity[whole.b]),
-                   static_cast<uint8_t>(root.level + 1), whole.coast);
+                   static_cast<uint8_t>(cut_.level + 1), whole.coast);
       const uint32_t first = AddBorder(whole.a, middle, whole.coast);
       const uint32_t second = AddBorder(middle, whole.b, whole.coast);
       borders[number].middle = middle;

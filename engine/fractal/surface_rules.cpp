@@ -8,7 +8,6 @@
 #include "engine/base/exact_math.h"
 #include "engine/base/random.h"
 #include "engine/fractal/amount.h"
-#include "engine/fractal/registry.h"
 
 namespace fjord {
 namespace {
@@ -21,8 +20,7 @@ constexpr double kDistanceSlack = 2e-3;
 
 bool Finite(double x) { return x - x == 0; }
 
-Result<Ok> SetFineness(const FractalSettings& settings, const AdaptiveView* view,
-                       SurfaceRules* rules) {
+Result<Ok> SetFineness(const FractalSettings& settings, SurfaceRules* rules) {
   const Fineness& fine = settings.fineness;
   rules->eye = fine.eye;
   if (fine.focal > 0) {
@@ -41,25 +39,21 @@ Result<Ok> SetFineness(const FractalSettings& settings, const AdaptiveView* view
     }
     rules->floor = fine.epsilon * fine.epsilon;
   }
-  if (settings.split == Split::kAdaptive) {
-    if (view == nullptr || !(fine.pixels > 0) || !(view->near >= 0)) {
-      return Invalid("split ADAPTIVE needs a camera and a fineness in pixels");
+  if (rules->staged()) {
+    const bool by_distance = fine.focal > 0;
+    rules->stages.SetFineness(by_distance ? fine.focal / fine.pixels : 1, by_distance);
+    rules->length_scale = rules->stages.scale2;
+    if (by_distance) {
+      rules->slope = 1;
+      rules->floor = fine.near * fine.near;
     }
-    rules->view = *view;
-    rules->pixels2 = fine.pixels * fine.pixels;
   }
   return Ok{};
 }
 
 }  // namespace
 
-Result<SurfaceRules> MakeSurfaceRules(const FractalSettings& given, const AdaptiveView* view) {
-  const MethodInfo* method = FindFractalMethod("surface");
-  FJORD_CHECK(method != nullptr);
-  const FractalSettings settings = ResolveSettings(*method, given);
-  if (const Errors errors = CheckSettings(*method, settings); !errors.empty()) {
-    return errors.front();
-  }
+Result<SurfaceRules> MakeSurfaceRules(const FractalSettings& settings) {
   SurfaceRules rules;
   rules.direction = settings.direction;
   rules.variant = settings.variant;
@@ -89,7 +83,7 @@ Result<SurfaceRules> MakeSurfaceRules(const FractalSettings& given, const Adapti
   for (uint32_t i = 0; i < kMaxSurfaceLevel; ++i) {
     rules.shih[i] = ShihDeviation(settings.sigma, settings.H, static_cast<int>(i)) * settings.move;
   }
-  if (const Result<Ok> fine = SetFineness(settings, view, &rules); !fine.ok()) return fine.error();
+  if (const Result<Ok> fine = SetFineness(settings, &rules); !fine.ok()) return fine.error();
   return rules;
 }
 
@@ -109,6 +103,26 @@ double SurfaceReach::LongestShort2(double distance2) const {
   return side / rules_->length_scale;
 }
 
+// Sum of the longest rest lengths of all midpoints' edges to the power of H, a stage after the
+// other, as far as weights can be above 0.
+double SurfaceReach::StagedPowers(double longest2, double nearest) const {
+  const SurfaceRules& rules = *rules_;
+  const Stages& stages = rules.stages;
+  const double from =
+      rules.slope > 0 ? std::max(rules.near, nearest - rules.eye_radius) : std::sqrt(rules.floor);
+  double sum = 0;
+  double now2 = longest2;
+  if (!(longest2 > 0)) return 0;
+  for (uint32_t stage = stages.StageOf(longest2); stage <= rules.max_level; ++stage) {
+    const double length2 = stages.Length2(stage);
+    const double start = stages.start * kSlack;
+    if (start * start * length2 < from * from) break;
+    sum += exact::Pow(now2, rules.half_H) + exact::Pow((now2 + 2 * length2) * .25, rules.half_H);
+    now2 = length2;
+  }
+  return sum * kSlack;
+}
+
 double SurfaceReach::Affine(const ReachInput& input, uint32_t levels) const {
   const SurfaceRules& rules = *rules_;
   const double longest2 = input.longest_rest2 * kSlack;
@@ -117,6 +131,9 @@ double SurfaceReach::Affine(const ReachInput& input, uint32_t levels) const {
   if (rules.current()) return amount * exact::Pow(longest2, rules.half_H) * levels;
   const double far = std::sqrt(input.farthest2);
   const double nearest = far * (1 - kDistanceSlack) - std::sqrt(longest2);
+  if (rules.staged()) {
+    return amount * StagedPowers(input.longest_rest2, nearest > 0 ? nearest : 0) * kSlack;
+  }
   const double farthest = far * (1 + 1e-5);
   const double e2 = LongestShort2(farthest * farthest) * kSlack;
   const double f2 = LongestShort2(nearest > 0 ? nearest * nearest : 0);
@@ -141,7 +158,10 @@ SurfaceReach::Parts SurfaceReach::operator()(const ReachInput& input) const {
     const double bound = GaussianBound(static_cast<int>(rules.uniforms));
     double longest = std::sqrt(input.longest_now2) * kSlack;
     double level_coast = coast;
-    for (uint32_t level = input.level; level < rules.max_level; ++level) {
+    // A stage makes midpoints of midpoints once more.
+    const uint32_t generations = rules.staged() ? 2 : 1;
+    for (uint32_t i = 0; i < generations * levels; ++i) {
+      const uint32_t level = input.level + i / generations;
       const double share = rules.law == Law::kShih ? rules.shih[level] * bound
                                                    : std::min(rules.similar * bound, kSimilarClamp);
       const double moved = share * spread_ * longest;

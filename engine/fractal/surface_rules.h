@@ -7,6 +7,7 @@
 
 #include "engine/base/result.h"
 #include "engine/fractal/method.h"
+#include "engine/fractal/stages.h"
 
 namespace fjord {
 
@@ -40,22 +41,25 @@ struct SurfaceRules {
 
   // An edge is long where length2 * length_scale > max(floor, slope * d2) or, with a ball of eyes,
   // slope * max(near, distance - eye_radius)^2: the two sides of frame.proto's FrameFineness
-  // squared.
+  // squared. Under ADAPTIVE e_k^2 of its stage stands for length2, and length_scale holds the
+  // stages' reach.
   double length_scale = 1;
   double floor = 0;
   double slope = 0;
   double near = 0;
   double eye_radius = 0;
   Vec3 eye{0};
-  AdaptiveView view;
-  double pixels2 = 0;
+  Stages stages;
 
   // Does the split rule read the frame's own lengths instead of the rest pose's?
-  bool current() const { return split != Split::kShot; }
+  bool current() const { return split == Split::kLength; }
+  // Is the tree cut off and faded in by stages?
+  bool staged() const { return split == Split::kAdaptive; }
 };
 
 // kInvalid for settings that are not the surface's, or a fineness that would never end.
-Result<SurfaceRules> MakeSurfaceRules(const FractalSettings& settings, const AdaptiveView* view);
+// Of `stages` the unit is left to be set.
+Result<SurfaceRules> MakeSurfaceRules(const FractalSettings& settings);
 
 // What SurfaceReach reads of a triangle.
 struct ReachInput {
@@ -76,6 +80,8 @@ struct ReachInput {
 //          (Lambda^2 + 2 e^2) / 4, the median to a single long one (4 e^2 - f^2) / 4. So
 //          the sum of Lambda_k^H over the levels until Lambda_k <= f is taken term by term. Where
 //          the split rule reads other lengths, Lambda_k = Lambda.
+//          ADAPTIVE: the longest edges of stage k, shorter than 2 e_k, then what is left of them:
+//          medians to the longer of two, of at most ((2 e_k)^2 + 2 e_k^2) / 4.
 // similar, shih   offsets are c_k times current lengths, which grow to at most
 //          max(1 + c_k, 1/2 + 2 c_k) Lambda_k.
 // coasts   offsets of at most .49 of the edge, whose halves have at most .7001 of it.
@@ -93,6 +99,7 @@ class SurfaceReach {
 
  private:
   double Affine(const ReachInput& input, uint32_t levels) const;
+  double StagedPowers(double longest2, double nearest) const;
   double LongestShort2(double distance2) const;
 
   const SurfaceRules* rules_;

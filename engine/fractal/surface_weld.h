@@ -28,8 +28,10 @@ namespace fjord {
 // A triangle that waits to be expanded: a coarse one, or a child of one that was too large.
 struct PatchRoot {
   StreamVertex vertex[3];
-  Rgb color[3];
-  double length2[3];  // as in Patch
+  double eye_distance2[3];  // as the vertices', not rounded
+  Rgb color[3];             // while welding
+  Weights place[3];         // while streaming, where it is read
+  double length2[3];        // as in Patch
   double current2[3];
   uint32_t site[3];  // 1..3: the side of the coarse triangle that it lies on; 0: inside
   uint32_t level;

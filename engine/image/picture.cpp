@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstring>
+#include <map>
 
 #include "engine/base/check.h"
 #include "engine/image/half.h"
@@ -55,7 +56,7 @@ Picture Quantise(uint32_t width, uint32_t height, PixelFormat format,
                  std::span<const float> linear) {
   const size_t samples = size_t{width} * height * 3;
   FJORD_CHECK(linear.size() == samples, width, height, linear.size());
-  Picture picture{width, height, format, {}};
+  Picture picture{width, height, format, {}, {}};
   picture.bytes.resize(samples * BytesPerSample(format));
   switch (format) {
     case PixelFormat::kPng8:
@@ -83,22 +84,42 @@ Picture Quantise(uint32_t width, uint32_t height, PixelFormat format,
   return picture;
 }
 
-Digest PixelDigest(const Picture& picture) {
+namespace {
+
+// Of samples of one type, `row` bytes a row.
+Digest LayerDigest(const Picture& picture, std::span<const uint8_t> bytes, uint32_t channels,
+                   uint32_t size, const char* type) {
   Sha256 sha;
   sha.Update("fjord-pixels 1 " + std::to_string(picture.width) + ' ' +
-             std::to_string(picture.height) + " 3 " + TypeName(picture.format) + '\n');
-  const uint32_t size = BytesPerSample(picture.format);
+             std::to_string(picture.height) + ' ' + std::to_string(channels) + ' ' + type + '\n');
   if (size == 1 || std::endian::native == std::endian::big) {
-    sha.Update(picture.bytes);
+    sha.Update(bytes);
     return sha.Finish();
   }
-  const size_t row = size_t{picture.width} * 3 * size;
+  const size_t row = size_t{picture.width} * channels * size;
   std::vector<uint8_t> swapped(row);
   for (uint32_t y = 0; y < picture.height; ++y) {
-    const uint8_t* from = picture.bytes.data() + y * row;
+    const uint8_t* from = bytes.data() + y * row;
     for (size_t i = 0; i < row; ++i) swapped[i] = from[(i / size) * size + (size - 1 - i % size)];
     sha.Update(swapped);
   }
+  return sha.Finish();
+}
+
+}  // namespace
+
+Digest PixelDigest(const Picture& picture) {
+  const Digest color = LayerDigest(picture, picture.bytes, 3, BytesPerSample(picture.format),
+                                   TypeName(picture.format));
+  if (picture.layers.empty()) return color;
+  std::map<std::string, Digest> digests = {{"color", color}};
+  for (const PictureLayer& layer : picture.layers) {
+    const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(layer.samples.data()),
+                                         layer.samples.size() * sizeof(float));
+    digests[layer.name] = LayerDigest(picture, bytes, 1, sizeof(float), "float");
+  }
+  Sha256 sha;
+  for (const auto& [name, digest] : digests) sha.Update(digest.bytes);
   return sha.Finish();
 }
 

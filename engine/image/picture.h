@@ -1,8 +1,10 @@
 // A picture: samples already in their output type, and the digest that names them.
 //
 // Pixel digest = SHA-256 over "fjord-pixels 1 W H CHANNELS TYPE\n" and the samples, big-endian, top
-// row first. TYPE is uint8, uint16, half or float. Quantising happens here, before any image
-// library sees a sample (D3), by tables and integer arithmetic only.
+// row first. TYPE is uint8, uint16, half or float. A picture with layers: SHA-256 over the 32 bytes
+// of each layer's digest in the order of their names, where "color" is the name of the picture's
+// own samples. Quantising happens here, before any image library sees a sample (D3), by tables and
+// integer arithmetic only.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +22,19 @@ enum class PixelFormat : uint32_t { kPng8, kPng16, kExrHalf, kExrFloat };
 // File ending without the dot: "png" or "exr".
 const char* FileEnding(PixelFormat format);
 
+// What an EXR holds beside the colours: one float a pixel, row by row from the top.
+struct PictureLayer {
+  std::string name;  // "depth"
+  std::vector<float> samples;
+};
+
 // RGB, row by row from the top, in the byte order of this machine.
 struct Picture {
   uint32_t width = 0;
   uint32_t height = 0;
   PixelFormat format = PixelFormat::kPng8;
-  std::vector<uint8_t> bytes;  // width * height * 3 * bytes a sample
+  std::vector<uint8_t> bytes;        // width * height * 3 * bytes a sample
+  std::vector<PictureLayer> layers;  // by name, each once
 };
 
 uint32_t BytesPerSample(PixelFormat format);

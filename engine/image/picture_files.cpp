@@ -4,7 +4,10 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <cstring>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace fjord {
 namespace {
@@ -36,6 +39,49 @@ void SetUpOnce() {
   (void)kDone;
 }
 
+// Layers that are read and written, and the channels that hold them.
+struct LayerChannel {
+  const char* layer;
+  const char* channel;
+};
+constexpr LayerChannel kLayerChannels[] = {{"depth", "Z"}};
+
+const char* ChannelOf(const std::string& layer) {
+  for (const LayerChannel& known : kLayerChannels) {
+    if (layer == known.layer) return known.channel;
+  }
+  return nullptr;
+}
+
+// Colours and layers pixel by pixel, each channel in its own type, as OpenImageIO takes them. False
+// where a layer has no channel.
+bool Interleave(const Picture& picture, OIIO::ImageSpec* spec, std::vector<uint8_t>* pixels) {
+  spec->channelformats.assign(3, SampleType(picture.format));
+  spec->channelnames = {"R", "G", "B"};
+  for (const PictureLayer& layer : picture.layers) {
+    const char* channel = ChannelOf(layer.name);
+    if (channel == nullptr) return false;
+    spec->channelformats.push_back(OIIO::TypeDesc::FLOAT);
+    spec->channelnames.emplace_back(channel);
+    if (std::string_view(channel) == "Z") spec->z_channel = static_cast<int>(spec->nchannels);
+    ++spec->nchannels;
+  }
+  const size_t color = 3 * SampleType(picture.format).size();
+  const size_t stride = color + picture.layers.size() * sizeof(float);
+  const size_t count = size_t{picture.width} * picture.height;
+  pixels->resize(count * stride);
+  for (size_t i = 0; i < count; ++i) {
+    uint8_t* to = pixels->data() + i * stride;
+    std::memcpy(to, &picture.bytes[i * color], color);
+    to += color;
+    for (const PictureLayer& layer : picture.layers) {
+      std::memcpy(to, &layer.samples[i], sizeof(float));
+      to += sizeof(float);
+    }
+  }
+  return true;
+}
+
 bool Encode(const Picture& picture, const std::string& ending, const PictureInfo& info,
             std::string* bytes_or_why) {
   SetUpOnce();
@@ -57,12 +103,19 @@ bool Encode(const Picture& picture, const std::string& ending, const PictureInfo
     spec.attribute("oiio:ColorSpace", "linear");
   }
   for (const auto& [key, value] : info) spec.attribute(std::string(kPrefix) + key, value);
+  std::vector<uint8_t> interleaved;
+  if (!picture.layers.empty() && (ending == "png" || !Interleave(picture, &spec, &interleaved))) {
+    *bytes_or_why = "layers go into .exr files only, and only those that are known";
+    return false;
+  }
+  const void* pixels = interleaved.empty() ? picture.bytes.data() : interleaved.data();
+  const OIIO::TypeDesc type =
+      interleaved.empty() ? SampleType(picture.format) : OIIO::TypeDesc(OIIO::TypeDesc::UNKNOWN);
   OIIO::Filesystem::IOVecOutput buffer;
   OIIO::Filesystem::IOProxy* proxy = &buffer;
   spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   const std::string name = "frame." + ending;
-  if (!out->open(name, spec) ||
-      !out->write_image(SampleType(picture.format), picture.bytes.data()) || !out->close()) {
+  if (!out->open(name, spec) || !out->write_image(type, pixels) || !out->close()) {
     *bytes_or_why = "the picture cannot be encoded: " + out->geterror();
     return false;
   }
@@ -74,7 +127,8 @@ bool Encode(const Picture& picture, const std::string& ending, const PictureInfo
 PixelFormat FormatOf(const std::string& ending, const OIIO::ImageSpec& spec) {
   if (ending == "png")
     return spec.format == OIIO::TypeDesc::UINT16 ? PixelFormat::kPng16 : PixelFormat::kPng8;
-  return spec.format == OIIO::TypeDesc::HALF ? PixelFormat::kExrHalf : PixelFormat::kExrFloat;
+  return spec.channelformat(0) == OIIO::TypeDesc::HALF ? PixelFormat::kExrHalf
+                                                       : PixelFormat::kExrFloat;
 }
 
 bool Decode(std::string_view bytes, const std::string& ending, Picture* picture, PictureInfo* info,
@@ -94,7 +148,6 @@ bool Decode(std::string_view bytes, const std::string& ending, Picture* picture,
   OIIO::ImageSpec spec;
   if (!in->open("frame." + ending, spec, config)) return fail(in->geterror());
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1) return fail("no flat picture");
-  if (spec.nchannels < 3) return fail("fewer than three channels");
   picture->width = static_cast<uint32_t>(spec.width);
   picture->height = static_cast<uint32_t>(spec.height);
   picture->format = FormatOf(ending, spec);
@@ -103,8 +156,28 @@ bool Decode(std::string_view bytes, const std::string& ending, Picture* picture,
       size_t{picture->width} * picture->height * 3 * SampleType(picture->format).size();
   if (claimed / 1100 > bytes.size()) return fail("shorter than its header says");
   picture->bytes.resize(claimed);
-  if (!in->read_image(0, 0, 0, 3, SampleType(picture->format), picture->bytes.data()))
+  // Grey, with or without alpha: the one channel three times.
+  const int channels = spec.nchannels < 3 ? 1 : 3;
+  const size_t sample = SampleType(picture->format).size();
+  if (!in->read_image(0, 0, 0, channels, SampleType(picture->format), picture->bytes.data(),
+                      static_cast<OIIO::stride_t>(3 * sample))) {
     return fail(in->geterror());
+  }
+  for (size_t at = 0; channels == 1 && at < claimed; at += 3 * sample) {
+    for (size_t k = 1; k < 3; ++k) {
+      std::memcpy(&picture->bytes[at + k * sample], &picture->bytes[at], sample);
+    }
+  }
+  picture->layers.clear();
+  for (const LayerChannel& known : kLayerChannels) {
+    const int channel = spec.channelindex(known.channel);
+    if (ending != "exr" || channel < 3) continue;
+    PictureLayer layer{known.layer, {}};
+    layer.samples.resize(size_t{picture->width} * picture->height);
+    if (!in->read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, layer.samples.data()))
+      return fail(in->geterror());
+    picture->layers.push_back(std::move(layer));
+  }
   if (info != nullptr) {
     info->clear();
     for (const OIIO::ParamValue& value : spec.extra_attribs) {
@@ -120,7 +193,7 @@ bool Decode(std::string_view bytes, const std::string& ending, Picture* picture,
 
 }  // namespace
 
-extern "C" const PictureFiles* FjordPictureFiles1() {
+extern "C" const PictureFiles* FjordPictureFiles2() {
   static constexpr PictureFiles kFiles{Encode, Decode};
   return &kFiles;
 }

@@ -15,18 +15,24 @@ double SrgbToLinear(double encoded) {
   return encoded <= .04045 ? encoded / 12.92 : exact::Pow((encoded + .055) / 1.055, 2.4);
 }
 
+// Where each code starts. The last is never reached by a search.
+template <typename Code>
+std::vector<float> Starts() {
+  constexpr uint32_t kCodes = 1u << (8 * sizeof(Code));
+  std::vector<float> starts(kCodes + 1);
+  for (uint32_t k = 1; k < kCodes; ++k) {
+    starts[k] = static_cast<float>(SrgbToLinear((k - .5) / (kCodes - 1)));
+  }
+  starts[kCodes] = 2;
+  return starts;
+}
+
 // Floats between kFirst and 1 are looked up by exponent and the leading bits of the mantissa; below
 // kFirst every code is searched for. Codes of one entry of the table lie close together.
 template <typename Code>
 class Thresholds {
  public:
-  Thresholds() {
-    thresholds_.resize(kCodes + 1);
-    thresholds_[0] = 0;
-    for (uint32_t k = 1; k < kCodes; ++k) {
-      thresholds_[k] = static_cast<float>(SrgbToLinear((k - .5) / (kCodes - 1)));
-    }
-    thresholds_[kCodes] = 2;
+  Thresholds() : thresholds_(Starts<Code>()) {
     const uint32_t entries = ((std::bit_cast<uint32_t>(1.f) - kFirstBits) >> kShift) + 1;
     for (uint32_t entry = 0; entry < entries; ++entry) {
       const float lowest = std::bit_cast<float>(kFirstBits + (entry << kShift));
@@ -96,6 +102,8 @@ void EncodeSrgb8(std::span<const float> linear, std::span<uint8_t> codes) {
 void EncodeSrgb16(std::span<const float> linear, std::span<uint16_t> codes) {
   EncodeAll(linear, codes);
 }
+
+std::vector<float> Srgb16Starts() { return Starts<uint16_t>(); }
 
 float DecodeSrgb8(uint8_t code) {
   static const std::vector<float> kTable = DecodeTable<uint8_t>();

@@ -7,11 +7,14 @@
 
 #include "engine/animation/coarse.h"
 #include "engine/animation/frame_geometry.h"
+#include "engine/animation/frame_key.h"
 #include "engine/animation/walk.h"
 #include "engine/base/fpenv.h"
+#include "engine/fractal/height_field.h"
 #include "engine/fractal/plain.h"
 #include "engine/fractal/registry.h"
-#include "engine/render/view.h"
+#include "engine/scene/parameters.h"
+#include "engine/texture/registry.h"
 
 namespace fjord {
 namespace {
@@ -97,39 +100,54 @@ Material MaterialOf(const v1::FrameMaterial& from, Reader* read) {
   return material;
 }
 
-// What decides how an object is prepared: all of it but where it stands and what it looks like, and
-// the view where that is read.
-Result<Digest> PreparedKey(const v1::FrameObject& object, const AdaptiveView& view) {
+Result<std::shared_ptr<const TextureChain>> ChainOf(const v1::FrameMaterial& from) {
+  auto chain = std::make_shared<TextureChain>();
+  for (const v1::FrameStage& stage : from.stage()) {
+    const StageInfo* info = FindTextureStage(stage.kind());
+    if (info == nullptr) {
+      return Inconsistent("there is no texture stage \"" + stage.kind() + "\"");
+    }
+    std::vector<KnobDefect> defects;
+    const std::any own = info->knobs.Read(ValuesOf(stage.parameter()), info->name, &defects);
+    if (!defects.empty()) {
+      return Inconsistent("stage " + stage.kind() + "." + defects.front().knob + ": " +
+                          defects.front().message);
+    }
+    AppendStage(*info, own, chain.get());
+  }
+  return std::shared_ptr<const TextureChain>(std::move(chain));
+}
+
+// What decides how an object is prepared: all of it but where it stands and what it looks like.
+Result<Digest> PreparedKey(const v1::FrameObject& object) {
   v1::FrameObject part = object;
   part.clear_transform();
   part.clear_material();
+  part.clear_uv();
+  part.clear_uv_size();
+  part.clear_placement();
+  part.clear_placement_asset();
   std::string bytes;
   if (Result<> walked = AppendWalk(part, bytes); !walked) return walked.error();
-  if (part.fractal().split() == static_cast<uint32_t>(Split::kAdaptive)) {
-    for (const double row : view.rows) AppendBigEndian(std::bit_cast<uint64_t>(row), bytes);
-    AppendBigEndian(std::bit_cast<uint64_t>(view.near), bytes);
-  }
   return Sha256Of(bytes);
 }
 
 Result<std::shared_ptr<const PreparedFractal>> Prepare(const CoarseShape& shape,
-                                                       const FractalSettings& settings,
-                                                       const AdaptiveView& view) {
+                                                       const MethodSettings& settings) {
   Result<std::unique_ptr<PreparedFractal>> prepared = MakeError(ErrorCode::kInternal, "");
-  if (settings.method.empty()) {
+  if (shape.heights) {
+    if (!settings.method.empty()) return Inconsistent("heights are drawn without a fractal");
+    prepared = PrepareHeights(*shape.heights, shape.heights_rest, settings.fineness, settings.seed);
+  } else if (settings.method.empty()) {
     prepared = PreparePlain(shape, settings.seed);
   } else {
     const MethodInfo* method = FindFractalMethod(settings.method);
-    if (method == nullptr) {
-      return Inconsistent("there is no fractal method \"" + settings.method + "\"");
-    }
-    const Errors defects = CheckSettings(*method, settings);
-    if (!defects.empty()) return defects.front();
+    FJORD_CHECK(method != nullptr, settings.method);
     if ((method->takes == Takes::kCurve) != shape.curve) {
       return Inconsistent("the method \"" + settings.method + "\" takes " +
                           (shape.curve ? "meshes, not curves" : "curves, not meshes"));
     }
-    prepared = method->prepare(shape, settings, &view);
+    prepared = PrepareMethod(shape, settings);
   }
   if (!prepared) return prepared.error();
   return std::shared_ptr<const PreparedFractal>(std::move(*prepared));
@@ -147,24 +165,33 @@ bool Finite(const CoarseShape& shape) {
   return finite(shape.now) && finite(shape.rest) && finite(shape.colors);
 }
 
-Result<PreparedObject> MakePrepared(const v1::FrameObject& from, const AssetResolver* assets,
-                                    const AdaptiveView& view) {
+Result<PreparedObject> MakePrepared(const v1::FrameObject& from, const AssetResolver* assets) {
   PreparedObject object;
-  Result<CoarseShape> shape = CoarseShapeOf(from, assets);
+  Takes takes = Takes::kTriangles;
+  if (from.has_fractal()) {
+    const MethodInfo* method = FindFractalMethod(from.fractal().method());
+    if (method != nullptr) takes = method->takes;
+  }
+  Result<CoarseShape> shape = CoarseShapeOf(from, assets, takes);
   if (!shape) return shape.error();
   if (!Finite(*shape)) {
     return Inconsistent("an object's points and colours must be finite and below 1e15");
   }
   object.shape = std::make_shared<const CoarseShape>(std::move(*shape));
-  if (from.has_fractal()) object.settings = FractalSettingsOf(from.fractal());
-  auto prepared = Prepare(*object.shape, object.settings, view);
+  if (from.has_fractal()) {
+    Result<MethodSettings> settings = MethodSettingsOf(from.fractal());
+    if (!settings) return settings.error();
+    object.settings = std::move(*settings);
+  }
+  if (from.has_heights()) object.settings.fineness = FinenessOf(from.heights().fineness());
+  auto prepared = Prepare(*object.shape, object.settings);
   if (!prepared) return prepared.error();
   object.prepared = std::move(*prepared);
   return object;
 }
 
 Result<BuiltObject> BuildObject(const v1::FrameObject& from, const AssetResolver* assets,
-                                const View& view, PreparedCache& cache, Reader* read) {
+                                PreparedCache& cache, Reader* read) {
   BuiltObject object;
   object.material = MaterialOf(from.material(), read);
   if (from.transform_size() == 12 && Finite(from.transform())) {
@@ -172,11 +199,20 @@ Result<BuiltObject> BuildObject(const v1::FrameObject& from, const AssetResolver
   } else if (from.transform_size() != 0) {
     read->Fail(Inconsistent("a transform needs 12 finite numbers"));
   }
+  if (from.uv() > static_cast<uint32_t>(UvKind::kBox)) return Inconsistent("unknown rule of (u,v)");
+  object.uv = {static_cast<UvKind>(from.uv()), read->Vector(from.uv_size(), Vec3(1), "uv_size")};
+  if (from.material().stage_size() > 0) {
+    Result<std::shared_ptr<const TextureChain>> chain = ChainOf(from.material());
+    if (!chain) return chain.error();
+    object.texture = std::move(*chain);
+  }
   if (!read->ok()) return read->error();
-  const AdaptiveView adaptive = MakeAdaptiveView(view, object.transform);
-  const Result<Digest> key = PreparedKey(from, adaptive);
+  Result<PlacementList> placements = PlacementsOf(from, assets);
+  if (!placements) return placements.error();
+  object.placements = std::move(*placements);
+  const Result<Digest> key = PreparedKey(from);
   if (!key) return key.error();
-  auto prepared = cache.Get(*key, [&] { return MakePrepared(from, assets, adaptive); });
+  auto prepared = cache.Get(*key, [&] { return MakePrepared(from, assets); });
   if (!prepared) return prepared.error();
   object.prepared = (*prepared)->prepared;
   object.shape = (*prepared)->shape;
@@ -205,6 +241,18 @@ Result<BuiltFrame> BuildFrame(const v1::FrameScene& from, const AssetResolver* a
   if (frame.samples != 1 && frame.samples != 4 && frame.samples != 16) {
     return Inconsistent("samples must be 1, 4 or 16, not " + std::to_string(frame.samples));
   }
+  for (const uint32_t layer : from.output().layer()) {
+    constexpr uint32_t kDepth = 1;  // Output.DEPTH
+    if (layer != kDepth) return Inconsistent("unknown output layer");
+    if (FileEnding(frame.format) != std::string_view("exr")) {
+      return Inconsistent("only EXR pictures have layers");
+    }
+    frame.depth_layer = true;
+  }
+  if (from.output().dither() != 0 && from.output().dither() != kDitherVersion) {
+    return Inconsistent("unknown version of the dither");
+  }
+  frame.dither = from.output().dither() != 0 && frame.format == PixelFormat::kPng8;
   const v1::FrameCamera& camera = from.camera();
   frame.camera.eye = read.Vector(camera.eye(), Vec3(0), "camera.eye");
   frame.camera.look_at = read.Vector(camera.look_at(), Vec3(0), "camera.look_at");
@@ -220,16 +268,27 @@ Result<BuiltFrame> BuildFrame(const v1::FrameScene& from, const AssetResolver* a
   }
   if (from.background_size() == 6 && Finite(from.background())) {
     const auto& b = from.background();
-    frame.background_top = Rgb(Vec3(b[0], b[1], b[2]));
-    frame.background_bottom = Rgb(Vec3(b[3], b[4], b[5]));
+    frame.sky.top = Rgb(Vec3(b[0], b[1], b[2]));
+    frame.sky.bottom = Rgb(Vec3(b[3], b[4], b[5]));
   } else if (from.background_size() != 0) {
     return Inconsistent("background needs six finite numbers");
   }
+  if (from.sky() > 1) return Inconsistent("unknown kind of sky");
+  frame.sky.kind = static_cast<SkyKind>(from.sky());
+  if (from.has_haze()) {
+    frame.haze = Haze{read.Color(from.haze().color(), "haze.color"),
+                      read.Number(from.haze().density(), 0, 1e9, "haze.density")};
+  }
+  frame.instant = read.Number(from.instant(), -kAbsurd, kAbsurd, "instant");
   frame.ambient = read.Color(from.ambient(), "ambient");
   for (const v1::FrameLight& light : from.light()) {
     frame.lights.push_back({light.local(), read.Vector(light.place(), Vec3(0, 0, 1), "a light"),
                             read.Number(light.range(), 0, kAbsurd, "a light's range"),
-                            read.Color(light.color(), "a light's color")});
+                            read.Color(light.color(), "a light's color"),
+                            read.Number(light.shadow(), 0, kAbsurd, "a light's shadow")});
+    if (light.local() && light.shadow() > 0) {
+      return Inconsistent("only directional lights have shadows");
+    }
   }
   if (from.has_sea()) {
     frame.sea =
@@ -239,24 +298,25 @@ Result<BuiltFrame> BuildFrame(const v1::FrameScene& from, const AssetResolver* a
             static_cast<float>(read.Number(from.sea().shininess(), 0, 1e4, "sea.shininess"))};
   }
   if (!read.ok()) return read.error();
-  const View view = MakeView(frame.camera, frame.width, frame.height);
   for (const v1::FrameObject& object : from.object()) {
-    Result<BuiltObject> built = BuildObject(object, assets, view, cache, &read);
+    Result<BuiltObject> built = BuildObject(object, assets, cache, &read);
     if (!built) return built.error();
     frame.objects.push_back(std::move(*built));
   }
   return frame;
 }
 
-Result<std::shared_ptr<const PreparedFractal>> PrepareObject(const BuiltFrame& frame,
-                                                             const BuiltObject& object,
+Result<std::shared_ptr<const PreparedFractal>> PrepareObject(const BuiltObject& object,
                                                              double coarser) {
   SetFloatEnvironment();
-  FractalSettings settings = object.settings;
+  MethodSettings settings = object.settings;
   settings.fineness.epsilon *= coarser;
   settings.fineness.pixels *= coarser;
-  const View view = MakeView(frame.camera, frame.width, frame.height);
-  return Prepare(*object.shape, settings, MakeAdaptiveView(view, object.transform));
+  const std::optional<HeightField>& heights = object.shape->heights;
+  if (heights && settings.fineness.epsilon <= 0 && settings.fineness.focal <= 0) {
+    settings.fineness.epsilon = coarser * heights->size.x / heights->source->columns();
+  }
+  return Prepare(*object.shape, settings);
 }
 
 }  // namespace fjord

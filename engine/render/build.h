@@ -16,8 +16,7 @@ Result<BuiltFrame> BuildFrame(const v1::FrameScene& frame, const AssetResolver* 
                               PreparedCache& cache = PreparedCache::Shared());
 
 // The object's shape made ready again with its fineness `coarser` times as coarse, for quick looks.
-Result<std::shared_ptr<const PreparedFractal>> PrepareObject(const BuiltFrame& frame,
-                                                             const BuiltObject& object,
+Result<std::shared_ptr<const PreparedFractal>> PrepareObject(const BuiltObject& object,
                                                              double coarser);
 
 }  // namespace fjord

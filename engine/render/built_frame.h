@@ -15,7 +15,10 @@
 #include "engine/fractal/method.h"
 #include "engine/geometry/vec.h"
 #include "engine/image/picture.h"
+#include "engine/render/haze.h"
+#include "engine/render/sky.h"
 #include "engine/texture/stage.h"
+#include "engine/texture/uv_map.h"
 
 namespace fjord {
 
@@ -34,6 +37,7 @@ struct Light {
   Vec3 place{0, 0, 1};  // direction towards it (any length), or position
   double range = 1;     // local
   Rgb color{1};
+  double shadow = 0;  // directional: width of a texel of its shadow map; 0: nothing is kept from it
 };
 
 struct Sea {
@@ -69,10 +73,12 @@ struct BuiltObject {
   std::shared_ptr<const PreparedFractal> prepared;
   // What `prepared` was made from; settings.method is empty for a shape without a fractal.
   std::shared_ptr<const CoarseShape> shape;
-  FractalSettings settings;
+  MethodSettings settings;
   Transform transform = kNoTransform;
+  std::vector<Transform> placements;  // drawn once at each, before `transform`; none: once
   Material material;
   std::shared_ptr<const TextureChain> texture;  // null: none
+  UvMap uv;
 };
 
 struct BuiltFrame {
@@ -80,12 +86,15 @@ struct BuiltFrame {
   uint32_t height = 0;
   PixelFormat format = PixelFormat::kPng8;
   uint32_t samples = 4;  // 1, 4 or 16
+  bool depth_layer = false;
+  bool dither = false;  // kPng8
   Camera camera;
-  Rgb background_top{0};
-  Rgb background_bottom{0};
+  Sky sky;
   Rgb ambient{0};
   std::vector<Light> lights;
   std::optional<Sea> sea;
+  std::optional<Haze> haze;
+  double instant = 0;  // frames; 0 where no texture stage reads the time
   std::vector<BuiltObject> objects;
 };
 

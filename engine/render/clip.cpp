@@ -39,8 +39,7 @@ ClipCorner Cut(const Projection& to, const ClipCorner& a, const ClipCorner& b, d
   cut.clip.y = a.clip.y + (b.clip.y - a.clip.y) * t;
   cut.clip.z = plane == 0 ? to.near : a.clip.z + (b.clip.z - a.clip.z) * t;
   cut.position = a.position + (b.position - a.position) * t;
-  cut.normal = a.normal + (b.normal - a.normal) * t;
-  cut.color = a.color + (b.color - a.color) * static_cast<float>(t);
+  cut.place = a.place + (b.place - a.place) * t;
   return cut;
 }
 

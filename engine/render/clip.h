@@ -5,15 +5,15 @@
 #include <array>
 #include <cstddef>
 
-#include "engine/geometry/vec.h"
+#include "engine/fractal/method.h"
 #include "engine/render/view.h"
 
 namespace fjord {
 
 struct ClipCorner {
   ClipPoint clip;
-  Vec3 position{0}, normal{0};  // object space
-  Rgb color{0};
+  Vec3 position{0};  // object space
+  Weights place{0};
 };
 
 // A convex polygon of at most 3 + 5 corners.

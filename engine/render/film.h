@@ -1,15 +1,23 @@
-// From a tile's visible samples to the linear colours of its pixels: samples are shaded row by row
-// and averaged in a fixed order (W39). Pixels where nothing was drawn and that are all sea or all
-// background take one colour for all their samples: the same bits, for less.
+// From a tile's visible samples to the linear colours of its pixels, row by row: who owns each
+// sample, runs of hits owner by owner, the passes (passes.h), and the average of a pixel's samples
+// in a fixed order (W39).
+//
+// Invariants
+// F1 Every sample of a pixel has one owner: an object, the sea or the sky.
+// F2 Where one hit stands for many samples (Grain), the samples get its colour; their sum and share
+//    are what each alone would have given.
 //
 // Not for sharing between threads.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "engine/render/exposure.h"
 #include "engine/render/frame_setup.h"
+#include "engine/render/passes.h"
 #include "engine/render/surface_hits.h"
 #include "engine/render/tile_buffer.h"
 
@@ -29,36 +37,30 @@ class Film {
   struct Span {
     int32_t first, end;
   };
-  enum class Behind { kBackground, kSea, kBoth };
 
-  void StartTile(const TileRect& tile);
+  void StartTile(const FrameSetup& setup, const TileRect& tile);
   void DevelopRow(int32_t y, const TileBuffer* drawn, float* out);
-  Behind BehindRow(int32_t y) const;
+  std::optional<uint32_t> BehindRow(int32_t y) const;
   Span DrawnPixels(const TileBuffer& drawn, int32_t y) const;
-  void FillPlain(int32_t y, Span pixels, Behind behind, float* out);
+  void FillPlain(int32_t y, Span pixels, uint32_t owner, float* out);
   void FillSamples(int32_t y, Span pixels, const TileBuffer* drawn, float* out);
   void FindOwners(int32_t y, Span pixels, const TileBuffer* drawn);
-  void CollectHits(const TileBuffer& drawn, int32_t y, Span samples, int32_t first);
-  void ShadeObject(const TileBuffer& tile, uint32_t object);
-  void ShadeSea();
+  void Collect(int32_t y, Span pixels, uint32_t owner, const TileBuffer* drawn);
+  void CollectSamples(int32_t y, Span pixels, uint32_t owner, const TileBuffer& drawn);
+  void AddPixel(int32_t x, int32_t y, uint32_t owner, size_t sample);
+  void Scatter(Span pixels, uint32_t owner);
   double SeaDepth(int32_t x, int32_t y, const SamplePlace& place) const;
-  void AddSeaPixel(int32_t x, int32_t y, double depth);
-  void InterpolateCorners(const TileBuffer& tile, size_t i, uint32_t hit,
-                          const Attributes& attributes);
-  void ApplyTexture(uint32_t object);
-  Rgb Background(int32_t y) const;
 
   const FrameSetup* setup_ = nullptr;  // of the tile being developed
   TileRect tile_;
   std::span<const SamplePlace> places_;
-  Rgb background_{0};  // of the row
   // Rows of samples, [x][sample] as the tile buffer's.
   std::vector<uint32_t> owner_;
   std::array<std::vector<float>, 3> row_;  // colours
+  std::vector<uint32_t> present_;          // owners of the row's samples, each once
+  std::vector<uint8_t> is_present_;        // by owner
   SurfaceHits hits_;
-  std::vector<uint32_t> hit_of_;  // per entry of hits_
-  SurfaceHits sea_;               // one entry a pixel; place: the pixel's column in the tile
-  std::vector<SurfaceSample> texture_;
+  Passes passes_;
 };
 
 }  // namespace fjord

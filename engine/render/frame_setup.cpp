@@ -1,8 +1,10 @@
 #include "engine/render/frame_setup.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/render/outline_fill.h"
+#include "engine/render/places.h"
 
 namespace fjord {
 namespace {
@@ -30,7 +32,8 @@ std::array<float, 9> NormalMatrix(const std::array<double, 9>& cofactors) {
 
 // The plane of a closed coarse curve: its mean place and its area vector (Newell). None for curves
 // that are not filled or have no area.
-std::optional<ViewPlane> FillPlane(const View& view, const BuiltObject& object) {
+std::optional<ViewPlane> FillPlane(const View& view, const BuiltObject& object,
+                                   const Transform& transform) {
   const CoarseShape& shape = *object.shape;
   if (!object.material.fill || !shape.curve || !shape.closed || shape.now.size() < 3) {
     return std::nullopt;
@@ -42,24 +45,26 @@ std::optional<ViewPlane> FillPlane(const View& view, const BuiltObject& object) 
     area += glm::cross(shape.now[i] - mean, shape.now[(i + 1) % shape.now.size()] - mean);
   }
   double determinant = 0;
-  const std::array<double, 9> c = Cofactors(object.transform, &determinant);
+  const std::array<double, 9> c = Cofactors(transform, &determinant);
   const Vec3 normal(glm::dot(Vec3(c[0], c[1], c[2]), area), glm::dot(Vec3(c[3], c[4], c[5]), area),
                     glm::dot(Vec3(c[6], c[7], c[8]), area));
-  return MakeViewPlane(view, Apply(object.transform, mean), Unit(normal));
+  return MakeViewPlane(view, Apply(transform, mean), Unit(normal));
 }
 
 }  // namespace
 
 FrameSetup::FrameSetup(const BuiltFrame& built)
-    : frame(built), view(MakeView(built.camera, built.width, built.height)) {
-  bool any_local = false;
+    : frame(built),
+      view(MakeView(built.camera, built.width, built.height)),
+      exposure{view, built.instant, 0, built.samples} {
+  bool places_read = false;
   for (const Light& light : built.lights) {
     ShadeLight shade;
     shade.local = light.local;
     shade.place = light.local ? light.place : Unit(light.place, Vec3(0, 0, 1));
     shade.inverse_range = light.range > 0 ? static_cast<float>(1 / light.range) : 1e30f;
     shade.color = light.color;
-    any_local |= light.local;
+    places_read |= light.local || light.shadow > 0;
     lights.push_back(shade);
   }
   HitGeometry geometry;
@@ -67,36 +72,49 @@ FrameSetup::FrameSetup(const BuiltFrame& built)
   geometry.eye = view.eye;
   geometry.forward = view.forward;
   geometry.orthographic = view.orthographic;
-  geometry.wants_position = any_local;
+  geometry.wants_position = places_read;
 
-  for (const BuiltObject& object : built.objects) {
+  const BuiltObject* attributes_of = nullptr;
+  std::shared_ptr<const CoarseAttributes> attributes;  // all places of an object share them
+  for (const ObjectPlace& place : PlacesSeen(built, view)) {
+    const BuiltObject& object = built.objects[place.object];
     const Material& material = object.material;
     ObjectSetup setup;
-    setup.to = MakeProjection(view, object.transform);
-    setup.attributes.normals = material.smooth && object.settings.method.empty();
-    setup.attributes.colors = material.vertex_color && !object.shape->colors.empty();
+    Owner owner;
+    setup.to = MakeProjection(view, place.transform);
+    owner.object = place.object;
+    owner.transform = place.transform;
+    if (&object != attributes_of) {
+      attributes_of = &object;
+      attributes = std::make_shared<const CoarseAttributes>(object);
+    }
+    if (attributes->any()) {
+      owner.attributes = attributes;
+      setup.keep = Keep::kPlaces;
+    }
     setup.line_width = material.line_width;
     double determinant = 0;
-    const std::array<double, 9> cofactors = Cofactors(object.transform, &determinant);
-    setup.surface.lit = !object.shape->curve;
-    setup.surface.diffuse = material.diffuse;
-    setup.surface.specular = material.specular;
-    setup.surface.shininess = material.shininess;
-    setup.surface.ambient = built.ambient * material.ambient;
-    setup.surface.normal_matrix = NormalMatrix(cofactors);
-    setup.geometry = geometry;
-    setup.geometry.wants_position = any_local || (object.texture && !object.texture->empty());
+    const std::array<double, 9> cofactors = Cofactors(place.transform, &determinant);
+    owner.surface.lit = !object.shape->curve;
+    owner.surface.diffuse = material.diffuse;
+    owner.surface.specular = material.specular;
+    owner.surface.shininess = material.shininess;
+    owner.surface.ambient = built.ambient * material.ambient;
+    owner.surface.normal_matrix = NormalMatrix(cofactors);
+    owner.geometry = geometry;
+    owner.geometry.wants_position = places_read || (object.texture && !object.texture->empty());
     if (determinant != 0) {
       // last row of the inverse: object z of a world point
       const Vec3 row(cofactors[2] / determinant, cofactors[5] / determinant,
                      cofactors[8] / determinant);
-      const Vec3 moved(object.transform[3], object.transform[7], object.transform[11]);
-      setup.geometry.height_row = row;
-      setup.geometry.height_offset = -glm::dot(row, moved);
+      const Vec3 moved(place.transform[3], place.transform[7], place.transform[11]);
+      owner.geometry.height_row = row;
+      owner.geometry.height_offset = -glm::dot(row, moved);
     }
-    if (!material.ramp.empty()) setup.geometry.height_offset -= material.ramp.front().height;
-    setup.fill = FillPlane(view, object);
+    if (!material.ramp.empty()) owner.geometry.height_offset -= material.ramp.front().height;
+    setup.fill = FillPlane(view, object, place.transform);
     objects.push_back(setup);
+    owners.push_back(std::move(owner));
     CullObject culled{object.prepared.get(), setup.to};
     if (object.shape->curve) culled.spread = StrokeSpread(material.line_width);
     if (setup.fill) {
@@ -105,14 +123,26 @@ FrameSetup::FrameSetup(const BuiltFrame& built)
     }
     cull.push_back(culled);
   }
+  // A sea is there even in frames without one, so that owners are numbered alike.
+  Owner water;
+  water.kind = OwnerKind::kSea;
+  water.grain = Grain::kPixel;
+  water.geometry = geometry;
   if (built.sea) {
     sea = MakeViewPlane(view, Vec3(0, 0, built.sea->level), Vec3(0, 0, 1));
-    sea_surface.specular = built.sea->specular;
-    sea_surface.shininess = built.sea->shininess;
-    sea_surface.ambient = built.ambient;
-    sea_surface.normal_matrix = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    water.surface.specular = built.sea->specular;
+    water.surface.shininess = built.sea->shininess;
+    water.surface.ambient = built.ambient;
+    water.surface.normal_matrix = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   }
-  sea_geometry = geometry;
+  sea_owner = static_cast<uint32_t>(owners.size());
+  owners.push_back(water);
+  Owner beyond;
+  beyond.kind = OwnerKind::kSky;
+  beyond.grain = built.sky.kind == SkyKind::kPicture ? Grain::kRow : Grain::kPixel;
+  beyond.geometry = geometry;
+  sky_owner = static_cast<uint32_t>(owners.size());
+  owners.push_back(beyond);
 }
 
 }  // namespace fjord

@@ -30,7 +30,7 @@ struct PreparedObject {
   std::shared_ptr<const PreparedFractal> prepared;
   // What `prepared` was made from; settings.method is empty for a shape without a fractal.
   std::shared_ptr<const CoarseShape> shape;
-  FractalSettings settings;
+  MethodSettings settings;
 
   size_t Bytes() const;
 };

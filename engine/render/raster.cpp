@@ -66,16 +66,15 @@ void FillSpans(const std::array<Edge, 3>& edges, const DepthPlane& plane, PixelR
 }
 
 ClipCorner ToClipCorner(const Projection& to, const Corner& corner) {
-  return {ToClip(to, corner.position), corner.position, corner.normal, corner.color};
+  return {ToClip(to, corner.position), corner.position, corner.place};
 }
 
 }  // namespace
 
-void Raster::StartObject(uint32_t object, const Projection& to, Attributes attributes,
-                         double line_width) {
+void Raster::StartObject(uint32_t object, const Projection& to, Keep keep, double line_width) {
   object_ = object;
   to_ = to;
-  attributes_ = attributes;
+  keep_ = keep;
   line_width_ = line_width;
 }
 
@@ -83,8 +82,7 @@ Corner Raster::MakeCorner(const StreamBatch& batch, uint32_t vertex) const {
   Corner corner;
   corner.screen = projected_.At(vertex);
   corner.position = batch.vertices[vertex].position;
-  if (attributes_.normals) corner.normal = batch.vertices[vertex].direction;
-  if (attributes_.colors && !batch.colors.empty()) corner.color = batch.colors[vertex];
+  if (keep_ == Keep::kPlaces) corner.place = batch.places[vertex];
   return corner;
 }
 
@@ -118,7 +116,7 @@ void Raster::DrawWhole(const StreamBatch& batch, const Triangle& triangle) {
   const uint32_t a = triangle[lead];
   const uint32_t b = triangle[(lead + 1) % 3];
   const uint32_t c = triangle[(lead + 2) % 3];
-  Fill(MakeCorner(batch, a), MakeCorner(batch, b), MakeCorner(batch, c),
+  Fill(MakeCorner(batch, a), MakeCorner(batch, b), MakeCorner(batch, c), batch.element,
        MakeRecord(batch, a, b, c));
 }
 
@@ -144,12 +142,12 @@ void Raster::DrawClipped(const StreamBatch& batch, const Triangle& triangle) {
   std::array<Corner, 8> corners;
   for (size_t i = 0; i < polygon.size; ++i) {
     const ClipCorner& from = polygon.corner[i];
-    corners[i] = {ToScreen(to_, from.clip), from.position, from.normal, from.color};
+    corners[i] = {ToScreen(to_, from.clip), from.position, from.place};
   }
   for (size_t i = 2; i < polygon.size; ++i) {
     const Corner* t[3] = {&corners[0], &corners[i - 1], &corners[i]};
     const int first = LeadingCorner(t[0]->screen, t[1]->screen, t[2]->screen);
-    Fill(*t[first], *t[(first + 1) % 3], *t[(first + 2) % 3], record);
+    Fill(*t[first], *t[(first + 1) % 3], *t[(first + 2) % 3], batch.element, record);
   }
 }
 
@@ -186,19 +184,20 @@ void Raster::DrawStroke(const StreamBatch& batch, const std::array<uint32_t, 2>&
         FloorToInt32(std::min(std::max(cy, -double{kFixedGuard}), double{kFixedGuard}) + .5),
         end[at].depth};
     corner[i].position = line.corner[at].position;
-    corner[i].normal = line.corner[at].normal;
-    corner[i].color = line.corner[at].color;
+    corner[i].place = line.corner[at].place;
   }
   HitRecord record;
   record.object = object_;
   record.tie = batch.vertices[segment[0]].id + batch.vertices[segment[1]].id;
   for (const auto& t : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
     const int first = LeadingCorner(corner[t[0]].screen, corner[t[1]].screen, corner[t[2]].screen);
-    Fill(corner[t[first]], corner[t[(first + 1) % 3]], corner[t[(first + 2) % 3]], record);
+    Fill(corner[t[first]], corner[t[(first + 1) % 3]], corner[t[(first + 2) % 3]], batch.element,
+         record);
   }
 }
 
-void Raster::Fill(const Corner& a, const Corner& b, const Corner& c, const HitRecord& record) {
+void Raster::Fill(const Corner& a, const Corner& b, const Corner& c, uint32_t element,
+                  const HitRecord& record) {
   const ScreenPoint &p = a.screen, &q = b.screen, &r = c.screen;
   const int64_t area =
       (int64_t{q.x} - p.x) * (int64_t{r.y} - p.y) - (int64_t{r.x} - p.x) * (int64_t{q.y} - p.y);
@@ -212,9 +211,10 @@ void Raster::Fill(const Corner& a, const Corner& b, const Corner& c, const HitRe
   if (columns.first > columns.last || rows.first > rows.last) return;
   const DepthPlane plane(p, q, r);
   HitSource source{record};
-  if (attributes_.any()) {
+  if (keep_ == Keep::kDepth) source.hit = 0;
+  if (keep_ == Keep::kPlaces) {
     source.has_corners = true;
-    source.corners = MakeCornerValues(to_, a, b, c);
+    source.corners = MakeCornerPlaces(to_, element, a, b, c);
   }
   const ScreenPoint &second = area < 0 ? r : q, &third = area < 0 ? q : r;
   constexpr int32_t kMedium = kMediumPixels * kFixedOne;

@@ -18,19 +18,26 @@ void Raster::AddWinners(const StreamBatch& batch) {
   winners_.Pad();
   HitRecord* records = tile_->AddRecords(winners_.count);
   MakeRecords(batch.vertices, winners_, object_, records);
-  if (!attributes_.any()) return;
+  if (keep_ != Keep::kPlaces) return;
   for (size_t i = 0; i < winners_.count; ++i) {
     const Triangle t = winners_.At(i);
-    records[i].corners = tile_->AddCorners(MakeCornerValues(
-        to_, MakeCorner(batch, t[0]), MakeCorner(batch, t[1]), MakeCorner(batch, t[2])));
+    records[i].corners =
+        tile_->AddCorners(MakeCornerPlaces(to_, batch.element, MakeCorner(batch, t[0]),
+                                           MakeCorner(batch, t[1]), MakeCorner(batch, t[2])));
   }
 }
 
-void Raster::DrawBlock(const StreamBatch& batch, size_t first, size_t count) {
-  const std::span<const Triangle> triangles = batch.triangles.subspan(first, count);
-  FindCoverage(triangles, projected_, tile_->rect(), tile_->places(), &coverage_);
-  FindDepths(triangles, projected_, tile_->rect(), tile_->places(), tile_->depth(), &coverage_);
-  std::fill_n(hit_of_.begin(), count, kNoHit);
+void Raster::KeepDepths() {
+  for (size_t i = 0; i < coverage_.hits; ++i) {
+    double& there = tile_->depth()[coverage_.sample[i]];
+    if (!(coverage_.depth[i] > there)) continue;
+    there = coverage_.depth[i];
+    tile_->hit()[coverage_.sample[i]] = 0;
+  }
+}
+
+void Raster::KeepWinners(const StreamBatch& batch, std::span<const Triangle> triangles) {
+  std::fill_n(hit_of_.begin(), triangles.size(), kNoHit);
   winners_.count = 0;
   const auto made = static_cast<uint32_t>(tile_->records());  // hits from here on: winners_
   double* depths = tile_->depth();
@@ -58,6 +65,17 @@ void Raster::DrawBlock(const StreamBatch& batch, size_t first, size_t count) {
     hits[sample] = hit;
   }
   AddWinners(batch);
+}
+
+void Raster::DrawBlock(const StreamBatch& batch, size_t first, size_t count) {
+  const std::span<const Triangle> triangles = batch.triangles.subspan(first, count);
+  FindCoverage(triangles, projected_, tile_->rect(), tile_->places(), &coverage_);
+  FindDepths(triangles, projected_, tile_->rect(), tile_->places(), tile_->depth(), &coverage_);
+  if (keep_ == Keep::kDepth) {
+    KeepDepths();
+  } else {
+    KeepWinners(batch, triangles);
+  }
   for (size_t i = 0; i < coverage_.larges; ++i) {
     const Triangle& triangle = triangles[coverage_.large[i]];
     bool clipped = false;

@@ -21,16 +21,17 @@ inline Rgb FacetNormal(const Vec3& a, const Vec3& b, const Vec3& c) {
   return Rgb(static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z));
 }
 
-inline CornerValues MakeCornerValues(const Projection& to, const Corner& a, const Corner& b,
-                                     const Corner& c) {
-  CornerValues values;
+inline CornerPlaces MakeCornerPlaces(const Projection& to, uint32_t element, const Corner& a,
+                                     const Corner& b, const Corner& c) {
+  CornerPlaces values;
+  values.element = element;
   const Corner* corners[3] = {&a, &b, &c};
   for (int i = 0; i < 3; ++i) {
     values.x[i] = corners[i]->screen.x;
     values.y[i] = corners[i]->screen.y;
     values.weight[i] = to.orthographic ? 1 : corners[i]->screen.depth;
-    values.normal[i] = corners[i]->normal;
-    values.color[i] = corners[i]->color;
+    values.second[i] = corners[i]->place.y;
+    values.third[i] = corners[i]->place.z;
   }
   return values;
 }
@@ -39,7 +40,7 @@ inline CornerValues MakeCornerValues(const Projection& to, const Corner& a, cons
 struct HitSource {
   HitRecord record;
   bool has_corners = false;
-  CornerValues corners;
+  CornerPlaces corners;
   uint32_t hit = kNoHit;
 
   uint32_t Get(TileBuffer* tile) {

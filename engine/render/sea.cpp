@@ -1,8 +1,7 @@
-// The sea: its depths (view_plane.h) and what the sky does to its colour (shade.h).
+// The depths of a plane over a row of samples.
 #include <limits>
 
 #include "engine/base/simd.h"
-#include "engine/render/shade.h"
 #include "engine/render/view_plane.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -31,25 +30,6 @@ void Lay(const ViewPlane& plane, const double* HWY_RESTRICT xs, const double* HW
   }
 }
 
-void Reflect(const Rgb& horizon, const Rgb& top, SurfaceHits* hits) {
-  const hn::ScalableTag<float> d;
-  const auto set = [&](float v) HWY_ATTR { return hn::Set(d, v); };
-  for (size_t i = 0; i < hits->size; i += hn::Lanes(d)) {
-    const auto x = hn::LoadU(d, &hits->to_eye[0][i]), y = hn::LoadU(d, &hits->to_eye[1][i]),
-               z = hn::LoadU(d, &hits->to_eye[2][i]);
-    const auto length = hn::Sqrt(hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)));
-    const auto c = hn::Div(hn::Abs(z), length);
-    const auto m = hn::Sub(set(1), c);
-    const auto m2 = hn::Mul(m, m);
-    const auto share = hn::Add(set(.02f), hn::Mul(set(.98f), hn::Mul(hn::Mul(m2, m2), m)));
-    for (int k = 0; k < 3; ++k) {
-      const auto sky = hn::Add(set(horizon[k]), hn::Mul(set(top[k] - horizon[k]), c));
-      const auto color = hn::LoadU(d, &hits->color[k][i]);
-      hn::StoreU(hn::Add(color, hn::Mul(hn::Sub(sky, color), share)), d, &hits->color[k][i]);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace fjord
@@ -59,16 +39,11 @@ HWY_AFTER_NAMESPACE();
 namespace fjord {
 namespace {
 HWY_EXPORT(Lay);
-HWY_EXPORT(Reflect);
 }  // namespace
 
 void LayPlane(const ViewPlane& plane, const double* x, const double* y, double top, size_t count,
               double* depth) {
   HWY_DYNAMIC_DISPATCH(Lay)(plane, x, y, top, count, depth);
-}
-
-void ReflectSky(const Rgb& horizon, const Rgb& top, SurfaceHits* hits) {
-  HWY_DYNAMIC_DISPATCH(Reflect)(horizon, top, hits);
 }
 
 }  // namespace fjord

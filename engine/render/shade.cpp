@@ -178,6 +178,10 @@ void Light(const Surface& surface, const ShadeLight* lights, size_t count, Surfa
            set(static_cast<float>(light.place.z))},
           set(1)};
       if (light.local) arrival = Reach(d, light, *hits, i);
+      if (light.shadow >= 0) {
+        const std::vector<float>& share = hits->arrives[static_cast<size_t>(light.shadow)];
+        arrival.share = hn::Mul(arrival.share, hn::LoadU(d, &share[i]));
+      }
       const V facing = Positive(d, Dot(normal, arrival.to_light));
       const V diffuse = hn::Mul(hn::Mul(set(surface.diffuse), facing), arrival.share);
       for (int k = 0; k < 3; ++k) {
@@ -222,6 +226,7 @@ void SurfaceHits::Resize(size_t count) {
     if (v.size() < room) v.resize(room);
   };
   grow(place);
+  grow(record);
   grow(x);
   grow(y);
   if (depth.size() < room) depth.resize(room, 1);
@@ -232,6 +237,7 @@ void SurfaceHits::Resize(size_t count) {
     grow(color[k]);
   }
   grow(height);
+  for (auto& share : arrives) grow(share);
 }
 
 void LocateHits(const HitGeometry& geometry, SurfaceHits* hits) {

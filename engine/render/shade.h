@@ -3,7 +3,8 @@
 // C the surface's colour, A the ambient light, I_j the light's colour, H the unit mean of L and the
 // way to the eye (which is local), f_j = 1 for directional lights and max(0, 1 - d / range)^2 for
 // local ones; no highlight where n = 0 or the light stands behind the surface. N is turned to the
-// eye, so both sides are lit alike. The same bits at every SIMD level.
+// eye, so both sides are lit alike. f_j times what shadows let through (shadow_map.h). The same
+// bits at every SIMD level.
 #pragma once
 
 #include <array>
@@ -21,6 +22,7 @@ struct ShadeLight {
   Vec3 place{0};  // unit direction towards it, or position
   float inverse_range = 0;
   Rgb color{0};
+  int32_t shadow = -1;  // which of SurfaceHits::arrives is its; -1: all of it arrives
 };
 
 struct Surface {
@@ -48,11 +50,7 @@ void LocateHits(const HitGeometry& geometry, SurfaceHits* hits);
 // Fills color from height: linear between stops, the end colours outside (S29).
 void ColorByHeight(std::span<const RampStop> ramp, SurfaceHits* hits);
 
-// Still water throws back the sky (Schlick): color mixed with it by .02 + .98 (1 - c)^5, c the
-// cosine of the angle of sight to the vertical. The sky runs from `horizon` (c = 0) to `top`.
-void ReflectSky(const Rgb& horizon, const Rgb& top, SurfaceHits* hits);
-
-// color becomes what is seen. Local lights need position.
+// color becomes what is seen. Local lights need position, those with shadows arrives.
 void Illuminate(const Surface& surface, std::span<const ShadeLight> lights, SurfaceHits* hits);
 
 }  // namespace fjord

@@ -91,7 +91,7 @@ void TileBuffer::Compact() {
 
 size_t TileBuffer::Bytes() const {
   return depth_.capacity() * sizeof(double) + hit_.capacity() * sizeof(uint32_t) +
-         records_.capacity() * sizeof(HitRecord) + corners_.capacity() * sizeof(CornerValues) +
+         records_.capacity() * sizeof(HitRecord) + corners_.capacity() * sizeof(CornerPlaces) +
          moved_.capacity() * sizeof(uint32_t) + 2 * sample_x_.capacity() * sizeof(double);
 }
 

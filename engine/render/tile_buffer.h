@@ -31,12 +31,13 @@ struct TileRect {
   int32_t bottom() const { return y + height; }
 };
 
-// What interpolates over a triangle beside depth, at its three corners in canonical order.
-struct CornerValues {
-  int32_t x[3], y[3];  // 24.8
-  double weight[3];    // 1 / distance for perspective, 1 for orthographic views
-  Vec3 normal[3];      // object space
-  Rgb color[3];
+// Where the three corners of a triangle lie on the picture and in their coarse element
+// (fractal/method.h), in canonical order: what shading needs to find a sample's own place there.
+struct CornerPlaces {
+  int32_t x[3], y[3];          // 24.8
+  double weight[3];            // 1 / distance for perspective, 1 for orthographic views
+  double second[3], third[3];  // weights of the element's second and third corner
+  uint32_t element = 0;
 };
 
 inline constexpr uint32_t kNoHit = 0xffffffff;
@@ -73,7 +74,7 @@ class TileBuffer {
   uint32_t* hit() { return hit_.data(); }
   const uint32_t* hit() const { return hit_.data(); }
   const HitRecord& record(uint32_t hit) const { return records_[hit]; }
-  const CornerValues& corners(uint32_t index) const { return corners_[index]; }
+  const CornerPlaces& corners(uint32_t index) const { return corners_[index]; }
 
   uint32_t AddRecord(const HitRecord& record) {
     records_.push_back(record);
@@ -85,7 +86,7 @@ class TileBuffer {
     return records_.data() + (records_.size() - count);
   }
   size_t records() const { return records_.size(); }
-  uint32_t AddCorners(const CornerValues& corners) {
+  uint32_t AddCorners(const CornerPlaces& corners) {
     corners_.push_back(corners);
     return static_cast<uint32_t>(corners_.size() - 1);
   }
@@ -121,7 +122,7 @@ class TileBuffer {
   std::vector<uint32_t> hit_;
   std::vector<HitRecord> records_;
   size_t record_limit_ = 0;
-  std::vector<CornerValues> corners_;
+  std::vector<CornerPlaces> corners_;
   std::vector<uint32_t> moved_;
 };
 

@@ -5,18 +5,17 @@
 #include <memory>
 #include <mutex>
 
-#include "engine/base/clamp.h"
 #include "engine/base/fpenv.h"
 #include "engine/base/parallel.h"
+#include "engine/image/dither.h"
+#include "engine/render/depth_layer.h"
 #include "engine/render/film.h"
 #include "engine/render/frame_setup.h"
-#include "engine/render/outline_fill.h"
-#include "engine/render/screen_bound.h"
+#include "engine/render/shadow_draw.h"
+#include "engine/render/tile_draw.h"
 
 namespace fjord {
 namespace {
-
-constexpr size_t kPatchSize = 2048;
 
 struct TileSize {
   int32_t width, height;
@@ -34,63 +33,14 @@ bool IsSet(const std::atomic<bool>* cancel) {
   return cancel != nullptr && cancel->load(std::memory_order_relaxed);
 }
 
-// Takes what a fractal streams into one tile.
-class TileSink final : public StreamSink {
- public:
-  // fill: null, or where outlines go too.
-  TileSink(const CullObject& object, const TileRect& rect, const std::atomic<bool>* cancel,
-           Raster* raster, OutlineFill* fill)
-      : frustum_(object, rect),
-        spread_(object.spread),
-        cancel_(cancel),
-        raster_(raster),
-        fill_(fill) {}
-
-  bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) override {
-    return !IsSet(cancel_) && frustum_.MayTouch(a, b, c, reach) &&
-           (fill_ != nullptr || !IsHidden(a, b, c, reach));
-  }
-  void Take(const StreamBatch& batch) override {
-    raster_->Draw(batch);
-    if (fill_ != nullptr) fill_->Add(raster_->tile(), raster_->projection(), batch);
-  }
-
- private:
-  // Is all of it behind what the tile holds already? Asked of small ones only: large ones are
-  // seldom hidden, and cut anyway.
-  bool IsHidden(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) const {
-    constexpr double kLargest = 64 * kFixedOne;
-    const std::optional<ScreenBound> bound =
-        BoundOnScreen(raster_->projection(), a, b, c, reach, spread_);
-    if (!bound || !(bound->right - bound->left < kLargest) ||
-        !(bound->bottom - bound->top < kLargest)) {
-      return false;
-    }
-    return raster_->tile().Hides(FloorToInt32(bound->left) >> 8, FloorToInt32(bound->top) >> 8,
-                                 FloorToInt32(bound->right) >> 8, FloorToInt32(bound->bottom) >> 8,
-                                 bound->depth);
-  }
-
-  const TileFrustum frustum_;
-  const double spread_;
-  const std::atomic<bool>* cancel_;
-  Raster* raster_;
-  OutlineFill* fill_;
-};
-
 // The buffers one thread needs.
 struct Worker {
-  Worker() : raster(&buffer) {}
-
-  TileBuffer buffer;
-  Raster raster;
-  OutlineFill fill;
+  TileDraw draw;
   Film film;
-  std::vector<float> rgb;
+  std::vector<float> rgb, distance;
 
   size_t Bytes() const {
-    return buffer.Bytes() + raster.Bytes() + fill.Bytes() + film.Bytes() +
-           rgb.capacity() * sizeof(float);
+    return draw.Bytes() + film.Bytes() + (rgb.capacity() + distance.capacity()) * sizeof(float);
   }
 };
 
@@ -134,13 +84,17 @@ class RegionRenderer {
     picture_.height = static_cast<uint32_t>(region.height);
     picture_.format = frame.format;
     pixel_bytes_ = 3 * BytesPerSample(frame.format);
-    picture_.bytes.resize(size_t{picture_.width} * picture_.height * pixel_bytes_);
+    const size_t pixels = size_t{picture_.width} * picture_.height;
+    picture_.bytes.resize(pixels * pixel_bytes_);
+    if (frame.depth_layer) picture_.layers.push_back({"depth", std::vector<float>(pixels)});
   }
 
   Result<RenderedFrame> Run() {
+    if (Result<> drawn = DrawShadows(&setup_, options_); !drawn) return drawn.error();
     ParallelFor(lists_.tiles.size(), options_.threads, [this](size_t i) { RenderTile(i); });
     if (IsSet(options_.cancel)) return MakeError(ErrorCode::kCancelled, "cancelled");
     stats_.peak_bytes = most_bytes_ * std::min(static_cast<size_t>(Threads()), lists_.tiles.size());
+    for (const ShadowMap& shadow : setup_.shadows) stats_.peak_bytes += shadow.Bytes();
     stats_.peak_bytes += picture_.bytes.size() + lists_.refs.capacity() * sizeof(RootRef);
     return RenderedFrame{std::move(picture_), stats_};
   }
@@ -152,51 +106,48 @@ class RegionRenderer {
     if (IsSet(options_.cancel)) return;
     std::unique_ptr<Worker> worker = WorkerPool::Get().Borrow();
     const TileRect& rect = lists_.tiles[tile];
-    const StreamStats made = Draw(tile, worker.get());
-    worker->rgb.resize(static_cast<size_t>(rect.width) * static_cast<size_t>(rect.height) * 3);
-    worker->film.Develop(setup_, rect, worker->buffer, worker->rgb);
+    const StreamStats made = worker->draw.Draw(List(), lists_, tile, options_);
+    const size_t pixels = static_cast<size_t>(rect.width) * static_cast<size_t>(rect.height);
+    worker->rgb.resize(pixels * 3);
+    worker->film.Develop(setup_, rect, worker->draw.buffer(), worker->rgb);
     Store(rect, worker->rgb);
+    if (setup_.frame.depth_layer) {
+      worker->distance.resize(pixels);
+      MeasureDepth(setup_, rect, worker->draw.buffer(), worker->distance);
+      StoreDepth(rect, worker->distance);
+    }
     Return(std::move(worker), made);
   }
 
-  StreamStats Draw(size_t tile, Worker* worker) {
-    const TileRect& rect = lists_.busy[tile];
-    const size_t patch = options_.patch_size > 0 ? options_.patch_size : kPatchSize;
-    worker->buffer.Reset(rect, setup_.frame.samples, setup_.sea ? &*setup_.sea : nullptr);
-    StreamStats made;
-    uint32_t i = lists_.start[tile];
-    const uint32_t end = lists_.start[tile + 1];
-    while (i < end) {
-      const uint32_t object = lists_.refs[i].object;
-      const ObjectSetup& setup = setup_.objects[object];
-      worker->raster.StartObject(object, setup.to, setup.attributes, setup.line_width);
-      if (setup.fill) worker->fill.Start(worker->buffer, setup_.cull[object].open);
-      TileSink sink(setup_.cull[object], rect, options_.cancel, &worker->raster,
-                    setup.fill ? &worker->fill : nullptr);
-      for (; i < end && lists_.refs[i].object == object; ++i) {
-        if (IsSet(options_.cancel)) return made;
-        const StreamStats root =
-            setup_.cull[object].prepared->Stream(lists_.refs[i].root, sink, patch);
-        made.midpoints += root.midpoints;
-        made.triangles += root.triangles;
-        made.culled += root.culled;
-        made.depth = std::max(made.depth, root.depth);
-      }
-      if (setup.fill) worker->fill.Finish(*setup.fill, object, &worker->buffer);
-    }
-    return made;
+  DrawList List() const {
+    return {setup_.objects, setup_.cull, setup_.frame.samples, setup_.sea ? &*setup_.sea : nullptr};
   }
 
   // Quantised here, so that no picture of floats is ever held whole.
   void Store(const TileRect& rect, std::span<const float> rgb) {
-    const Picture part = Quantise(static_cast<uint32_t>(rect.width),
-                                  static_cast<uint32_t>(rect.height), picture_.format, rgb);
     const size_t row = static_cast<size_t>(rect.width) * pixel_bytes_;
+    const size_t samples = static_cast<size_t>(rect.width) * 3;
     for (int32_t y = 0; y < rect.height; ++y) {
       const size_t at = (static_cast<size_t>(rect.y - region_.y + y) * picture_.width +
                          static_cast<size_t>(rect.x - region_.x)) *
                         pixel_bytes_;
-      std::memcpy(&picture_.bytes[at], &part.bytes[static_cast<size_t>(y) * row], row);
+      const std::span<const float> from = rgb.subspan(static_cast<size_t>(y) * samples, samples);
+      if (setup_.frame.dither) {
+        EncodeDithered8(static_cast<uint32_t>(rect.x), static_cast<uint32_t>(rect.y + y), from,
+                        std::span(picture_.bytes).subspan(at, row));
+        continue;
+      }
+      const Picture part = Quantise(static_cast<uint32_t>(rect.width), 1, picture_.format, from);
+      std::memcpy(&picture_.bytes[at], part.bytes.data(), row);
+    }
+  }
+
+  void StoreDepth(const TileRect& rect, std::span<const float> distance) {
+    const auto width = static_cast<size_t>(rect.width);
+    for (int32_t y = 0; y < rect.height; ++y) {
+      const size_t at = static_cast<size_t>(rect.y - region_.y + y) * picture_.width +
+                        static_cast<size_t>(rect.x - region_.x);
+      std::copy_n(distance.begin() + y * rect.width, width, &picture_.layers[0].samples[at]);
     }
   }
 
@@ -216,7 +167,7 @@ class RegionRenderer {
     if (options_.progress) options_.progress(share);
   }
 
-  const FrameSetup setup_;
+  FrameSetup setup_;  // tiles only read it
   const TileRect region_;
   const RenderOptions& options_;
   TileLists lists_;

@@ -85,18 +85,6 @@ Vec3 PointAt(const View& view, double x, double y, double depth) {
   return view.eye + (view.forward + view.right * right + view.up * up) * (1 / depth);
 }
 
-AdaptiveView MakeAdaptiveView(const View& view, const Transform& transform) {
-  const Projection to = MakeProjection(view, transform);
-  AdaptiveView adaptive;
-  for (int i = 0; i < 4; ++i) {
-    adaptive.rows[i] = to.x[i] * (1. / kFixedOne);
-    adaptive.rows[4 + i] = to.y[i] * (1. / kFixedOne);
-    adaptive.rows[8 + i] = view.orthographic ? (i == 3 ? 1. : 0.) : to.z[i];
-  }
-  adaptive.near = view.orthographic ? .5 : view.near;
-  return adaptive;
-}
-
 Vec3 Apply(const Transform& m, const Vec3& p) {
   return {((m[0] * p.x + m[1] * p.y) + m[2] * p.z) + m[3],
           ((m[4] * p.x + m[5] * p.y) + m[6] * p.z) + m[7],

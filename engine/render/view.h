@@ -26,7 +26,8 @@ struct View {
   uint32_t width = 0, height = 0;
 };
 
-// Total: a camera without a direction looks along +y, one with a useless `up` takes another.
+// Every camera has a view: one without a direction looks along +y, and where `up` says nothing
+// another upward direction is taken.
 View MakeView(const Camera& camera, uint32_t width, uint32_t height);
 
 // Object space to clip space: x and y in 1/256 pixel times z (times 1 when orthographic), z the
@@ -58,9 +59,6 @@ ScreenPoint ToScreen(const Projection& to, const ClipPoint& p);
 
 // The world point seen at picture coordinates (1/256 pixel) with that depth.
 Vec3 PointAt(const View& view, double x, double y, double depth);
-
-// The rows that adaptive splitting reads: pixels, not 1/256 pixels.
-AdaptiveView MakeAdaptiveView(const View& view, const Transform& transform);
 
 Vec3 Apply(const Transform& transform, const Vec3& p);
 // The object point of a world point; the origin for a transform that flattens.

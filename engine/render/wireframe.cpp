@@ -10,6 +10,7 @@
 #include "engine/base/clamp.h"
 #include "engine/render/build.h"
 #include "engine/render/clip.h"
+#include "engine/render/places.h"
 #include "engine/render/view.h"
 
 namespace fjord {
@@ -53,11 +54,15 @@ struct FrameEdges {
   bool fits = true;
 };
 
+uint64_t TimesDrawn(const BuiltObject& object) {
+  return std::max<uint64_t>(1, object.placements.size());
+}
+
 Result<FrameEdges> WeldFrame(const BuiltFrame& frame, double coarser, size_t cap) {
   FrameEdges all;
   for (const BuiltObject& object : frame.objects) {
     Result<std::shared_ptr<const PreparedFractal>> prepared = object.prepared;
-    if (coarser != 1) prepared = PrepareObject(frame, object, coarser);
+    if (coarser != 1) prepared = PrepareObject(object, coarser);
     if (!prepared) return prepared.error();
     WeldLimits limits;
     limits.max_points = std::max<uint64_t>(cap, object.shape->now.size());
@@ -69,7 +74,7 @@ Result<FrameEdges> WeldFrame(const BuiltFrame& frame, double coarser, size_t cap
     }
     ObjectEdges edges{std::move(*shape), {}};
     edges.edges = EdgesOf(edges.shape);
-    all.count += edges.edges.size();
+    all.count += edges.edges.size() * TimesDrawn(object);
     all.objects.push_back(std::move(edges));
     if (all.count > cap) all.fits = false;
   }
@@ -86,13 +91,14 @@ Result<FrameEdges> EdgesUnder(const BuiltFrame& frame, size_t cap, double* coars
     if (complete && (all->count == last || *coarser > kCoarsest)) {
       const uint64_t stride = (all->count + cap - 1) / cap;
       all->count = 0;
-      for (ObjectEdges& object : all->objects) {
+      for (size_t o = 0; o < all->objects.size(); ++o) {
+        ObjectEdges& object = all->objects[o];
         size_t kept = 0;
         for (size_t i = 0; i < object.edges.size(); i += stride) {
           object.edges[kept++] = object.edges[i];
         }
         object.edges.resize(kept);
-        all->count += kept;
+        all->count += kept * TimesDrawn(frame.objects[o]);
       }
       return all;
     }
@@ -130,12 +136,21 @@ bool CutToPicture(const BuiltFrame& frame, Segment* s) {
   return true;
 }
 
+// Of each object, at each of its places.
+std::vector<std::pair<size_t, Projection>> ProjectionsOf(const BuiltFrame& frame,
+                                                         const View& view) {
+  std::vector<std::pair<size_t, Projection>> projections;
+  for (const ObjectPlace& place : PlacesSeen(frame, view)) {
+    projections.emplace_back(place.object, MakeProjection(view, place.transform));
+  }
+  return projections;
+}
+
 // All edges on the picture, in order. `draw(segment)`.
 template <typename Draw>
 void ProjectEdges(const BuiltFrame& frame, const FrameEdges& all, const Draw& draw) {
   const View view = MakeView(frame.camera, frame.width, frame.height);
-  for (size_t o = 0; o < all.objects.size(); ++o) {
-    const Projection to = MakeProjection(view, frame.objects[o].transform);
+  for (const auto& [o, to] : ProjectionsOf(frame, view)) {
     for (const Edge& edge : all.objects[o].edges) {
       ClipPolygon line;
       line.size = 2;

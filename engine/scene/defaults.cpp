@@ -6,6 +6,7 @@
 #include "engine/fractal/registry.h"
 #include "engine/scene/field_path.h"
 #include "engine/scene/limits.h"
+#include "engine/scene/parameters.h"
 
 namespace fjord {
 namespace {
@@ -16,11 +17,16 @@ void Fill(v1::Vec3* v, double x, double y, double z) {
   if (!v->has_z()) v->set_z(z);
 }
 
-void Fill(v1::Color* color, double r, double g, double b) {
-  const bool absent = !color->has_r() && !color->has_g() && !color->has_b();
-  if (!color->has_r()) color->set_r(absent ? r : 0);
-  if (!color->has_g()) color->set_g(absent ? g : 0);
-  if (!color->has_b()) color->set_b(absent ? b : 0);
+// A colour that is not given at all gets the default; one that is given, were it `color {}`, is 0
+// where it leaves a number out.
+template <typename Owner>
+void Fill(Owner* owner, bool (Owner::*has)() const, v1::Color* (Owner::*get)(), double r, double g,
+          double b) {
+  const bool given = (owner->*has)();
+  v1::Color* color = (owner->*get)();
+  if (!color->has_r()) color->set_r(given ? 0 : r);
+  if (!color->has_g()) color->set_g(given ? 0 : g);
+  if (!color->has_b()) color->set_b(given ? 0 : b);
 }
 
 void FillOutput(v1::Scene* scene) {
@@ -29,6 +35,7 @@ void FillOutput(v1::Scene* scene) {
   if (!output->has_height()) output->set_height(540);
   if (!output->has_rate()) output->set_rate(24);
   if (!output->has_samples()) output->set_samples(4);
+  if (!output->has_dither()) output->set_dither(true);
   if (output->has_frames()) return;
   double last = 1;
   for (const v1::Object& object : scene->objects()) {
@@ -47,7 +54,7 @@ void FillLight(v1::Light* light) {
   } else if (light->has_position()) {
     Fill(light->mutable_position(), 0, 0, 0);
   }
-  Fill(light->mutable_color(), 1, 1, 1);
+  Fill(light, &v1::Light::has_color, &v1::Light::mutable_color, 1, 1, 1);
   if (!light->has_intensity()) light->set_intensity(1);
 }
 
@@ -88,29 +95,10 @@ void FillFractal(v1::Object* object, const Geometry* geometry, const Box& box) {
   }
   const MethodInfo* method = FindFractalMethod(fractal->method());
   if (method == nullptr) return;
-  const FractalSettings& defaults = method->defaults;
-  const auto* type = v1::Fractal::descriptor();
-  for (const Knob& knob : AllKnobs()) {
-    const bool known =
-        std::find(method->knobs.begin(), method->knobs.end(), knob.name) != method->knobs.end();
-    const auto* field = type->FindFieldByName(std::string(knob.name));
-    FJORD_CHECK(field != nullptr, knob.name);
-    const auto* reflection = fractal->GetReflection();
-    if (known && !reflection->HasField(*fractal, field)) {
-      reflection->SetDouble(fractal, field, defaults.*knob.value);
-    }
-  }
+  CompleteEntry(*method, fractal);
+  const FractalCommon defaults;
   if (!fractal->has_seed()) fractal->set_seed(defaults.seed);
   if (!fractal->has_max_level()) fractal->set_max_level(defaults.max_level);
-  if (!fractal->has_uniforms()) fractal->set_uniforms(defaults.uniforms);
-  if (!fractal->has_stretch()) fractal->set_stretch(defaults.stretch);
-  if (!fractal->has_coast() && method->name == "surface") fractal->set_coast(defaults.coast);
-  if (fractal->law() == 0) fractal->set_law(static_cast<v1::Fractal::Law>(defaults.law));
-  if (fractal->direction() == 0) {
-    fractal->set_direction(static_cast<v1::Fractal::Direction>(defaults.direction));
-  }
-  if (fractal->variant() == 0)
-    fractal->set_variant(static_cast<v1::Fractal::Variant>(defaults.variant));
   if (fractal->split() == 0) fractal->set_split(v1::Fractal::SHOT);
   if (!fractal->has_epsilon() && !fractal->has_pixels() && !fractal->has_viewing())
     fractal->set_pixels(1);
@@ -131,7 +119,7 @@ void FillRamp(v1::Material* material, const Box& box, double shore) {
   const auto add = [&](double height, const Stop& stop) {
     v1::RampStop* entry = material->add_ramp();
     entry->set_height(height);
-    Fill(entry->mutable_color(), stop.r, stop.g, stop.b);
+    Fill(entry, &v1::RampStop::has_color, &v1::RampStop::mutable_color, stop.r, stop.g, stop.b);
   };
   const double top = box.high.z;
   if (shore > box.low.z) add(shore - .05 * (top - shore), kSeabed);
@@ -157,13 +145,14 @@ void FillMaterial(const v1::Scene& scene, v1::Object* object, const Geometry* ge
     FillRamp(material, box, sea > box.low.z && sea < box.high.z ? sea : box.low.z);
   }
   if (curve && !material->fill()) {
-    Fill(material->mutable_color(), .02, .02, .03);
+    Fill(material, &v1::Material::has_color, &v1::Material::mutable_color, .02, .02, .03);
   } else if (IsFlat(box)) {
-    Fill(material->mutable_color(), .16, .26, .09);
+    Fill(material, &v1::Material::has_color, &v1::Material::mutable_color, .16, .26, .09);
   } else {
-    Fill(material->mutable_color(), .52, .47, .42);
+    Fill(material, &v1::Material::has_color, &v1::Material::mutable_color, .52, .47, .42);
   }
-  for (v1::RampStop& stop : *material->mutable_ramp()) Fill(stop.mutable_color(), 0, 0, 0);
+  for (v1::RampStop& stop : *material->mutable_ramp())
+    Fill(&stop, &v1::RampStop::has_color, &v1::RampStop::mutable_color, 0, 0, 0);
 }
 
 std::string StemOf(const std::string& file_name) {
@@ -197,15 +186,22 @@ void FillPrimitive(v1::Primitive* primitive) {
 }  // namespace
 
 void FillSurroundings(v1::Scene* scene, const std::string& file_name) {
-  Fill(scene->mutable_background()->mutable_top(), .12, .28, .58);
-  Fill(scene->mutable_background()->mutable_bottom(), .62, .74, .86);
-  Fill(scene->mutable_ambient(), .22, .26, .33);
+  Fill(scene->mutable_background(), &v1::Background::has_top, &v1::Background::mutable_top, .12,
+       .28, .58);
+  Fill(scene->mutable_background(), &v1::Background::has_bottom, &v1::Background::mutable_bottom,
+       .62, .74, .86);
+  Fill(scene, &v1::Scene::has_ambient, &v1::Scene::mutable_ambient, .22, .26, .33);
+  if (scene->has_haze()) {
+    const v1::Color& horizon = scene->background().bottom();
+    Fill(scene->mutable_haze(), &v1::Haze::has_color, &v1::Haze::mutable_color, horizon.r(),
+         horizon.g(), horizon.b());
+  }
   if (scene->name().empty()) scene->set_name(StemOf(file_name));
   if (scene->lights_size() == 0) {
     v1::Light* sun = scene->add_lights();
     sun->set_name("sun");
     Fill(sun->mutable_direction(), -.55, -.40, .60);
-    Fill(sun->mutable_color(), 1, .92, .78);
+    Fill(sun, &v1::Light::has_color, &v1::Light::mutable_color, 1, .92, .78);
     sun->set_intensity(1.1);
   }
   for (int i = 0; i < scene->objects_size(); ++i) {
@@ -222,9 +218,24 @@ void FillShapeNumbers(v1::Scene* scene) {
   for (int i = 0; i < scene->objects_size(); ++i) {
     for (const ShapeEntry& entry : ShapesOf(scene, i)) {
       if (entry.shape->has_primitive()) FillPrimitive(entry.shape->mutable_primitive());
+      if (entry.shape->has_heights()) {
+        v1::Heights* heights = entry.shape->mutable_heights();
+        Fill(heights->mutable_size(), 1, 1, 1);
+        if (!heights->has_pixels() && !heights->has_epsilon()) heights->set_pixels(1);
+      }
     }
   }
 }
+
+namespace {
+
+void FillTransform(v1::Transform* transform) {
+  Fill(transform->mutable_translate(), 0, 0, 0);
+  Fill(transform->mutable_rotate(), 0, 0, 0);
+  Fill(transform->mutable_scale(), 1, 1, 1);
+}
+
+}  // namespace
 
 void FillPlainDefaults(v1::Scene* scene, const SceneShapes& shapes) {
   FillOutput(scene);
@@ -232,7 +243,7 @@ void FillPlainDefaults(v1::Scene* scene, const SceneShapes& shapes) {
   if (scene->has_sea()) {
     v1::Sea* sea = scene->mutable_sea();
     if (!sea->has_level()) sea->set_level(0);
-    Fill(sea->mutable_color(), .015, .07, .13);
+    Fill(sea, &v1::Sea::has_color, &v1::Sea::mutable_color, .015, .07, .13);
     if (!sea->has_specular()) sea->set_specular(.35);
     if (!sea->has_shininess()) sea->set_shininess(60);
   }
@@ -241,12 +252,8 @@ void FillPlainDefaults(v1::Scene* scene, const SceneShapes& shapes) {
     const auto index = static_cast<size_t>(i);
     const Geometry* geometry = shapes.FirstOf(index);
     const Box box = shapes.BoundsOf(index);
-    if (object->has_transform()) {
-      v1::Transform* transform = object->mutable_transform();
-      Fill(transform->mutable_translate(), 0, 0, 0);
-      Fill(transform->mutable_rotate(), 0, 0, 0);
-      Fill(transform->mutable_scale(), 1, 1, 1);
-    }
+    if (object->has_transform()) FillTransform(object->mutable_transform());
+    for (v1::Transform& placement : *object->mutable_placements()) FillTransform(&placement);
     if (object->key_size() > 0 && !object->has_rest_frame()) {
       object->set_rest_frame(object->key(object->key_size() - 1).frame());
     }

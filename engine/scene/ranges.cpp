@@ -1,6 +1,5 @@
 #include "engine/scene/ranges.h"
 
-#include <charconv>
 #include <map>
 #include <string_view>
 
@@ -29,6 +28,8 @@ constexpr Row kRows[] = {
     {"fjord.v1.Color.b", {0, 1e6, false}},
     {"fjord.v1.Light.range", {0, kLargest, true}},
     {"fjord.v1.Light.intensity", {0, 1e6, false}},
+    {"fjord.v1.Light.shadow_detail", {0, kLargest, true}},
+    {"fjord.v1.Haze.density", {0, 1e9, false}},
     {"fjord.v1.Sea.specular", {0, 1000, false}},
     {"fjord.v1.Sea.shininess", {1, 200, false}},
     {"fjord.v1.Key.frame", {1, limits::kFrames, false}},
@@ -37,9 +38,12 @@ constexpr Row kRows[] = {
     {"fjord.v1.Primitive.radii", {0, kLargest, true}},
     {"fjord.v1.Primitive.segments", {1, 16'000'000, false}},
     {"fjord.v1.Primitive.rings", {1, 16'000'000, false}},
+    {"fjord.v1.Heights.pixels", {0, 1e6, true}},
+    {"fjord.v1.Heights.epsilon", {0, kLargest, true}},
     {"fjord.v1.Fractal.epsilon", {0, kLargest, true}},
     {"fjord.v1.Fractal.pixels", {0, 1e6, true}},
     {"fjord.v1.Fractal.viewing", {0, kLargest, true}},
+    {"fjord.v1.Fractal.max_level", {0, limits::kMaxLevel, false}},
     {"fjord.v1.Material.ambient", {0, 1000, false}},
     {"fjord.v1.Material.diffuse", {0, 1000, false}},
     {"fjord.v1.Material.specular", {0, 1000, false}},
@@ -49,16 +53,6 @@ constexpr Row kRows[] = {
 
 }  // namespace
 
-bool NumberRange::Holds(double value) const {
-  return value <= highest && (above ? value > lowest : value >= lowest);
-}
-
-std::string NumberRange::ToString() const {
-  const std::string low = NumberText(lowest), high = NumberText(highest);
-  if (above) return "above " + low + (highest < kLargest ? " and at most " + high : "");
-  return low + " to " + high;
-}
-
 const NumberRange* RangeOf(const google::protobuf::FieldDescriptor& field) {
   static const auto* const kTable = [] {
     auto* table = new std::map<std::string_view, const NumberRange*>();
@@ -67,16 +61,6 @@ const NumberRange* RangeOf(const google::protobuf::FieldDescriptor& field) {
   }();
   const auto found = kTable->find(field.full_name());
   return found == kTable->end() ? nullptr : found->second;
-}
-
-std::string NumberText(double value) {
-  char buffer[32];
-  const double size = value < 0 ? -value : value;
-  const bool plain = size == 0 || (size >= 1e-4 && size < 1e9);
-  const auto [end, code] =
-      std::to_chars(buffer, buffer + sizeof buffer, value,
-                    plain ? std::chars_format::fixed : std::chars_format::scientific);
-  return code == std::errc() ? std::string(buffer, end) : "?";
 }
 
 }  // namespace fjord

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "engine/scene/nearest.h"
+#include "engine/scene/parameters.h"
 
 namespace fjord {
 namespace {
@@ -32,6 +33,7 @@ const std::string& NameOf(const Message& message, const FieldDescriptor* field) 
 }
 
 std::vector<std::string> FieldNames(const Descriptor& type) {
+  if (const EntryKind* kind = KindOf(&type); kind != nullptr) return kind->FieldNames();
   std::vector<std::string> names;
   names.reserve(static_cast<size_t>(type.field_count()));
   for (int i = 0; i < type.field_count(); ++i) names.push_back(type.field(i)->name());
@@ -65,7 +67,25 @@ Result<int> FindEntry(const Message* parent, const FieldDescriptor& field,
   return Invalid(list + " has no entry named \"" + selector + "\"" + SuggestNames(selector, names));
 }
 
+// "x y z" or "r g b" by the knob's type; -1 for another name.
+int PlaceInVector(const Knob& knob, const std::string& name) {
+  if (knob.list || name.size() != 1) return -1;
+  const std::string_view names = knob.type == KnobType::kVector  ? "xyz"
+                                 : knob.type == KnobType::kColor ? "rgb"
+                                                                 : "";
+  const size_t at = names.find(name[0]);
+  return at == std::string_view::npos ? -1 : static_cast<int>(at);
+}
+
+const v1::Parameter* FindParameter(const Message& entry, std::string_view name) {
+  for (const v1::Parameter& parameter : ParametersOf(entry)) {
+    if (parameter.name() == name) return &parameter;
+  }
+  return nullptr;
+}
+
 const Message* Child(const Message& parent, const RouteStep& step) {
+  if (step.knob != nullptr) return FindParameter(parent, step.knob->name);
   const Reflection& reflection = *parent.GetReflection();
   if (step.index >= 0) {
     if (step.index >= reflection.FieldSize(parent, step.field)) return nullptr;
@@ -73,6 +93,15 @@ const Message* Child(const Message& parent, const RouteStep& step) {
   }
   return reflection.HasField(parent, step.field) ? &reflection.GetMessage(parent, step.field)
                                                  : nullptr;
+}
+
+v1::Parameter* OpenParameter(Message* entry, const Knob& knob) {
+  for (v1::Parameter& parameter : *MutableParametersOf(entry)) {
+    if (parameter.name() == knob.name) return &parameter;
+  }
+  v1::Parameter* parameter = MutableParametersOf(entry)->Add();
+  parameter->set_name(std::string(knob.name));
+  return parameter;
 }
 
 Error NoField(const Descriptor& type, const std::string& name, const std::string& prefix) {
@@ -95,14 +124,35 @@ Error WhichEntry(const std::string& list) {
 
 }  // namespace
 
+RouteStep KnobStep(const Descriptor* type, std::string_view name) {
+  const EntryKind* kind = KindOf(type);
+  const Knob* knob = kind == nullptr ? nullptr : kind->AnyKnob(name);
+  if (knob == nullptr) return {};
+  const Descriptor* parameter = v1::Parameter::descriptor();
+  const bool text = knob->type == KnobType::kChoice || knob->type == KnobType::kText;
+  const bool whole = knob->type == KnobType::kWhole || knob->type == KnobType::kFlag;
+  return {parameter->FindFieldByName(text ? "text" : whole ? "whole" : "number"), -1, knob};
+}
+
 Route Route::Then(std::string_view field, int index) const {
   const Descriptor* type =
       steps.empty() ? v1::Scene::descriptor() : steps.back().field->message_type();
   FJORD_CHECK(type != nullptr, field);
   const FieldDescriptor* found = type->FindFieldByName(std::string(field));
-  FJORD_CHECK(found != nullptr, type->full_name(), field);
   Route route = *this;
-  route.steps.push_back({found, index});
+  if (found == nullptr) {
+    route.steps.push_back(KnobStep(type, field));
+  } else {
+    route.steps.push_back({found, index});
+  }
+  FJORD_CHECK(route.steps.back().field != nullptr, type->full_name(), field);
+  return route;
+}
+
+Route Route::ThenKnob(std::string_view knob) const {
+  const RouteStep step = KnobStep(steps.back().field->message_type(), knob);
+  Route route = *this;
+  if (step.field != nullptr) route.steps.push_back(step);
   return route;
 }
 
@@ -119,6 +169,11 @@ std::string PrintRoute(const v1::Scene& scene, const Route& route) {
   const Message* message = &scene;
   for (const RouteStep& step : route.steps) {
     if (!text.empty()) text += '.';
+    if (step.knob != nullptr) {
+      const char* names = step.knob->type == KnobType::kColor ? "rgb" : "xyz";
+      step.index < 0 ? text += step.knob->name : text += names[step.index];
+      continue;
+    }
     text += step.field->name();
     const Message* child = message != nullptr && IsMessage(*step.field) &&
                                    (step.index >= 0 || !step.field->is_repeated())
@@ -140,14 +195,26 @@ Result<Route> FindRoute(const v1::Scene& scene, const FieldPath& path) {
   const Descriptor* type = v1::Scene::descriptor();
   std::string prefix;
   for (const PathPiece& piece : path.pieces) {
-    if (type == nullptr) return PlainValue(prefix, piece.field);
-    const FieldDescriptor* field = type->FindFieldByName(piece.field);
-    if (field == nullptr) return NoField(*type, piece.field, prefix);
     std::string here = prefix;
     if (!here.empty()) here += '.';
     here += piece.field;
-    RouteStep step{field, -1};
-    if (!field->is_repeated()) {
+    if (!route.empty() && route.steps.back().knob != nullptr) {  // a number of a vector
+      const RouteStep& knob = route.steps.back();
+      const int place = knob.index < 0 ? PlaceInVector(*knob.knob, piece.field) : -1;
+      if (place < 0) return PlainValue(prefix, piece.field);
+      if (!piece.selector.empty()) return NotAList(here, piece.selector);
+      route.steps.push_back({knob.field, place, knob.knob});
+      prefix = here;
+      continue;
+    }
+    if (type == nullptr) return PlainValue(prefix, piece.field);
+    const FieldDescriptor* field = type->FindFieldByName(piece.field);
+    const bool hidden = KindOf(type) != nullptr && piece.field == "parameter";
+    RouteStep step{hidden ? nullptr : field, -1};
+    if (step.field == nullptr) step = KnobStep(type, piece.field);
+    if (step.field == nullptr) return NoField(*type, piece.field, prefix);
+    field = step.field;
+    if (step.knob != nullptr || !field->is_repeated()) {
       if (!piece.selector.empty()) return NotAList(here, piece.selector);
     } else if (piece.selector.empty()) {
       return WhichEntry(here);
@@ -167,7 +234,7 @@ Result<Route> FindRoute(const v1::Scene& scene, const FieldPath& path) {
     route.steps.push_back(step);
     prefix = here;
     if (step.index >= 0) prefix.append("[").append(piece.selector).append("]");
-    type = field->message_type();
+    type = step.knob != nullptr ? nullptr : field->message_type();
     message = message != nullptr && type != nullptr ? Child(*message, step) : nullptr;
   }
   return route;
@@ -178,22 +245,27 @@ Message* OpenParent(v1::Scene* scene, const Route& route) {
   Message* message = scene;
   for (size_t i = 0; i + 1 < route.steps.size(); ++i) {
     const RouteStep& step = route.steps[i];
+    if (step.knob != nullptr) return OpenParameter(message, *step.knob);
     const Reflection* reflection = message->GetReflection();
     message = step.index >= 0 ? reflection->MutableRepeatedMessage(message, step.field, step.index)
                               : reflection->MutableMessage(message, step.field);
   }
-  return message;
+  const Knob* knob = route.steps.back().knob;
+  return knob != nullptr ? OpenParameter(message, *knob) : message;
 }
 
 const Message* FindParent(const v1::Scene& scene, const Route& route) {
   const Message* message = &scene;
-  for (size_t i = 0; i + 1 < route.steps.size() && message != nullptr; ++i) {
-    message = Child(*message, route.steps[i]);
+  for (size_t i = 0; i < route.steps.size() && message != nullptr; ++i) {
+    const RouteStep& step = route.steps[i];
+    if (step.knob != nullptr) return Child(*message, step);
+    if (i + 1 < route.steps.size()) message = Child(*message, step);
   }
   return message;
 }
 
 int NumberCount(const RouteStep& step) {
+  if (step.knob != nullptr) return step.index >= 0 ? 1 : step.knob->TrackNumbers();
   if (step.field->is_repeated() && step.index < 0) return 0;
   if (step.field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE) return 1;
   if (!IsMessage(*step.field)) return 0;
@@ -206,6 +278,14 @@ void SetNumbers(v1::Scene* scene, const Route& route, std::span<const double> va
   FJORD_CHECK(static_cast<int>(values.size()) == NumberCount(last), values.size());
   Message* parent = OpenParent(scene, route);
   const Reflection* reflection = parent->GetReflection();
+  if (last.knob != nullptr) {
+    auto* numbers = static_cast<v1::Parameter*>(parent)->mutable_number();
+    const int width = last.knob->TrackNumbers();
+    if (numbers->size() != width) numbers->Resize(width, 0);
+    const int first = last.index < 0 ? 0 : last.index;
+    for (size_t i = 0; i < values.size(); ++i) numbers->Set(first + static_cast<int>(i), values[i]);
+    return;
+  }
   if (!IsMessage(*last.field)) {
     if (last.index >= 0) {
       reflection->SetRepeatedDouble(parent, last.field, last.index, values[0]);

@@ -102,12 +102,18 @@ SceneShapes ReadShapes(v1::Scene* scene, const AssetReader& reader,
       geometries.emplace_back();
       if (errors->Full()) continue;
       if (!CheckWritten(*shape, route, errors)) continue;
-      const bool is_file = shape->kind_case() == v1::Shape::kFile;
-      if (is_file &&
+      if (shape->has_file() &&
           !ReadAsset(shape->mutable_file(), route.Then("file"), reader, assets, errors)) {
         continue;
       }
+      if (shape->heights().has_file() &&
+          !ReadAsset(shape->mutable_heights()->mutable_file(), route.Then("heights").Then("file"),
+                     reader, assets, errors)) {
+        continue;
+      }
       Result<Geometry> geometry = DecodeShape(*shape, *assets);
+      const bool needs_mesh = scene->objects(i).has_fractal() || !scene->objects(i).has_shape();
+      if (geometry && needs_mesh) geometry = WithMesh(std::move(*geometry));
       if (geometry) {
         geometries.back() = std::move(*geometry);
       } else if (geometry.error().place.file.empty()) {

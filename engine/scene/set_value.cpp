@@ -1,12 +1,14 @@
 // SetFromText of route.h.
 #include <google/protobuf/descriptor.h>
-#include <google/protobuf/io/tokenizer.h>
-#include <google/protobuf/text_format.h>
+#include <google/protobuf/stubs/strutil.h>
 
 #include <array>
 #include <charconv>
+#include <memory>
 
 #include "engine/scene/nearest.h"
+#include "engine/scene/parameters.h"
+#include "engine/scene/read_text.h"
 #include "engine/scene/route.h"
 
 namespace fjord {
@@ -36,14 +38,6 @@ bool ReadThree(std::string_view text, std::array<double, 3>* values) {
   return text.find_first_not_of(" ,", at) == std::string_view::npos;
 }
 
-class FirstError : public google::protobuf::io::ErrorCollector {
- public:
-  void AddError(int, int, const std::string& message) override {
-    if (text.empty()) text = message;
-  }
-  std::string text;
-};
-
 // Writes through Set... or SetRepeated..., as the step demands.
 template <typename Value, typename Single, typename Repeated>
 void Put(Message* parent, const RouteStep& step, Value value, Single single, Repeated repeated) {
@@ -55,22 +49,48 @@ void Put(Message* parent, const RouteStep& step, Value value, Single single, Rep
   }
 }
 
-Result<> SetMessage(Message* parent, const RouteStep& step, const std::string& value) {
-  const Reflection* reflection = parent->GetReflection();
-  Message* message = step.index >= 0
-                         ? reflection->MutableRepeatedMessage(parent, step.field, step.index)
-                         : reflection->MutableMessage(parent, step.field);
-  FirstError first;
-  google::protobuf::TextFormat::Parser parser;
-  parser.RecordErrorsTo(&first);
-  parser.AllowPartialMessage(true);
-  parser.SetRecursionLimit(16);
+// The text form of a group, on top of what the message has.
+Result<> SetMessage(Message* message, const std::string& value) {
   std::unique_ptr<Message> fresh(message->New());
-  if (!parser.ParseFromString(value, fresh.get())) {
+  MessageBinder binder(fresh.get(), "", false, nullptr);
+  ReadTextForm(value, &binder);
+  const Errors errors = binder.Take();
+  if (!errors.empty()) {
     return Invalid("\"" + value + "\" is not a " + message->GetDescriptor()->name() + ": " +
-                   first.text);
+                   errors[0].message);
   }
   message->MergeFrom(*fresh);
+  return {};
+}
+
+// Reads the value as a scene would hold it: as the one field of an entry of its own.
+Result<> SetKnob(v1::Scene* scene, const Route& route, const std::string& value) {
+  const RouteStep& step = route.steps.back();
+  const Knob& knob = *step.knob;
+  if (step.index >= 0) {  // one number of a vector
+    double number = 0;
+    if (!ReadWhole(std::string_view(value), &number))
+      return Invalid("\"" + value + "\" is not a number");
+    SetNumbers(scene, route, {&number, 1});
+    return {};
+  }
+  std::string text = value;
+  std::array<double, 3> three{};
+  if (knob.type == KnobType::kText) text = '"' + google::protobuf::CEscape(value) + '"';
+  if (knob.TrackNumbers() == 3 && ReadThree(value, &three)) {
+    SetNumbers(scene, route, three);
+    return {};
+  }
+  const auto* type = route.steps[route.steps.size() - 2].field->message_type();
+  const std::unique_ptr<Message> entry(
+      google::protobuf::MessageFactory::generated_factory()->GetPrototype(type)->New());
+  MessageBinder binder(entry.get(), "", false, nullptr);
+  ReadTextForm(std::string(knob.name) + ": " + text, &binder);
+  const Errors errors = binder.Take();
+  if (!errors.empty()) return Invalid(errors[0].message);
+  const Parameters& read = ParametersOf(*entry);
+  if (read.size() != 1) return Invalid("\"" + value + "\" is not " + knob.TypeText());
+  *static_cast<v1::Parameter*>(OpenParent(scene, route)) = read[0];
   return {};
 }
 
@@ -78,8 +98,9 @@ Result<> SetMessage(Message* parent, const RouteStep& step, const std::string& v
 
 Result<> SetFromText(v1::Scene* scene, const Route& route, std::string_view value) {
   const RouteStep& step = route.steps.back();
-  Message* parent = OpenParent(scene, route);
   const std::string text(value);
+  if (step.knob != nullptr) return SetKnob(scene, route, text);
+  Message* parent = OpenParent(scene, route);
   const auto wrong = [&](const std::string& wanted) {
     return Invalid("\"" + text + "\" is not " + wanted);
   };
@@ -129,7 +150,11 @@ Result<> SetFromText(v1::Scene* scene, const Route& route, std::string_view valu
       }
       if (NumberCount(step) == 3 && text.find(':') == std::string::npos)
         return wrong("three numbers, as in \"0 -5 2\"");
-      return SetMessage(parent, step, text);
+      return SetMessage(
+          step.index >= 0
+              ? parent->GetReflection()->MutableRepeatedMessage(parent, step.field, step.index)
+              : parent->GetReflection()->MutableMessage(parent, step.field),
+          text);
     }
     default:
       return Invalid("this field cannot be set");

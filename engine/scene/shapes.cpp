@@ -5,6 +5,7 @@
 
 #include "engine/formats/shape_file.h"
 #include "engine/geometry/primitives.h"
+#include "engine/scene/heights.h"
 #include "engine/scene/limits.h"
 
 namespace fjord {
@@ -88,6 +89,35 @@ Result<Geometry> FromMessage(const v1::Polyline& polyline) {
   return Checked(std::move(geometry));
 }
 
+Geometry FromHeights(HeightField field) {
+  Geometry geometry;
+  const HeightSource& source = *field.source;
+  const auto range = source.RangeOf(0, 0, source.columns() - 1, source.rows() - 1);
+  for (const float height : {range.low, range.high}) {
+    for (const uint32_t j : {0u, source.rows() - 1}) {
+      for (const uint32_t i : {0u, source.columns() - 1}) {
+        geometry.points.push_back(field.Place(i, j, height));
+      }
+    }
+  }
+  geometry.face_size = {4};
+  geometry.face_vertex = {0, 1, 3, 2};
+  geometry.heights = std::move(field);
+  return geometry;
+}
+
+// A grid of more points than a mesh may have: all its heights are 0.
+std::optional<HeightField> LargeGrid(const v1::Primitive& grid) {
+  constexpr uint32_t kMostCells = 16384;
+  const uint64_t columns = uint64_t{grid.segments()} + 1, rows = uint64_t{grid.rings()} + 1;
+  if (grid.kind() != v1::Primitive::GRID || columns * rows <= limits::kFilePoints ||
+      grid.segments() > kMostCells || grid.rings() > kMostCells) {
+    return std::nullopt;
+  }
+  return HeightField{FlatHeights(static_cast<uint32_t>(columns), static_cast<uint32_t>(rows)),
+                     Vec3(grid.size().x(), grid.size().y(), 1)};
+}
+
 // Needs a primitive whose defaults are filled in (defaults.h).
 Result<Mesh> MakePrimitive(const v1::Primitive& primitive) {
   const uint32_t segments = primitive.segments(), rings = primitive.rings();
@@ -142,7 +172,13 @@ Result<Geometry> DecodeShape(const v1::Shape& shape,
       return FromMessage(shape.mesh());
     case v1::Shape::kPolyline:
       return FromMessage(shape.polyline());
+    case v1::Shape::kHeights: {
+      Result<HeightField> field = DecodeHeights(shape.heights(), assets);
+      if (!field) return field.error();
+      return Checked(FromHeights(std::move(*field)));
+    }
     case v1::Shape::kPrimitive: {
+      if (auto grid = LargeGrid(shape.primitive())) return Checked(FromHeights(std::move(*grid)));
       Result<Mesh> mesh = MakePrimitive(shape.primitive());
       if (!mesh) return mesh.error();
       return Checked(FromMesh(std::move(*mesh)));
@@ -153,8 +189,22 @@ Result<Geometry> DecodeShape(const v1::Shape& shape,
       return FromFile(shape.file(), found->second);
     }
     default:
-      return Invalid("the shape is empty; give it mesh, polyline, primitive or file");
+      return Invalid("the shape is empty; give it mesh, polyline, primitive, file or heights");
   }
+}
+
+Result<Geometry> WithMesh(Geometry geometry) {
+  if (!geometry.heights) return geometry;
+  const HeightSource& source = *geometry.heights->source;
+  const uint64_t points = uint64_t{source.columns()} * source.rows();
+  if (points > limits::kFilePoints) {
+    return MakeError(ErrorCode::kLimit,
+                     std::to_string(source.columns()) + " x " + std::to_string(source.rows()) +
+                         " points are more than the " + std::to_string(limits::kFilePoints) +
+                         " that a fractal or a key picture can have; without them heights and "
+                         "grids are drawn at any size");
+  }
+  return FromMesh(MeshOf(*geometry.heights));
 }
 
 void Box::Add(const Vec3& point) {

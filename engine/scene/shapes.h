@@ -2,10 +2,12 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/geometry/heights.h"
 #include "engine/geometry/mesh.h"
 #include "fjord/v1/scene.pb.h"
 
@@ -20,7 +22,13 @@ struct Geometry {
   std::vector<Rgb> colors;  // none, or one a point
   bool curve = false;
   bool closed = false;
+  // Drawn from its samples. Points and faces are the corners and the ground of its box then, so
+  // that bounds can be had from them.
+  std::optional<HeightField> heights;
 };
+
+// The same with heights made into a mesh; kLimit where they are too many for one.
+Result<Geometry> WithMesh(Geometry geometry);
 
 // `assets`: digest to bytes. Errors have no place but for those of a file's own text.
 Result<Geometry> DecodeShape(const v1::Shape& shape,

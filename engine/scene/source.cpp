@@ -11,20 +11,8 @@ Place SceneSource::Find(const Route& route) const {
   for (auto entry = set.rbegin(); entry != set.rend(); ++entry) {
     if (entry->first.Holds(route)) return {entry->second, 0, 0};
   }
-  Place place{name, 0, 0};
-  if (form != Form::kText) return place;
-  const google::protobuf::TextFormat::ParseInfoTree* node = &tree;
-  for (const RouteStep& step : route.steps) {
-    if (step.index < 0 && step.field->is_repeated()) break;
-    const auto location = node->GetLocation(step.field, step.index);
-    if (location.line < 0) break;
-    place.line = location.line + 1;
-    place.column = location.column + 1;
-    if (step.field->message_type() == nullptr) break;
-    node = node->GetTreeForNested(step.field, step.index);
-    if (node == nullptr) break;
-  }
-  return place;
+  const TextPlace found = places.Find(route);
+  return {name, found.line, found.column};
 }
 
 void SceneErrors::Add(const Route& route, const std::string& message, ErrorCode code) {

@@ -1,14 +1,13 @@
-// A scene's text as it was read, for telling where a defect is: file:line:column in text form, the
-// --set that wrote the value, or the file alone (JSON and binary, whose errors go by path).
+// A scene's text as it was read, for telling where a defect is: file:line:column in text form and
+// JSON, the --set that wrote the value, or the file alone (the binary form).
 #pragma once
-
-#include <google/protobuf/text_format.h>
 
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/scene/places.h"
 #include "engine/scene/route.h"
 
 namespace fjord {
@@ -18,8 +17,8 @@ struct SceneSource {
   enum class Form { kText, kJson, kBinary };
   Form form = Form::kText;
   std::string name;
-  google::protobuf::TextFormat::ParseInfoTree tree;  // text form
-  std::vector<std::pair<Route, std::string>> set;    // route, "--set path=value"
+  PlaceTree places;                                // text form and JSON
+  std::vector<std::pair<Route, std::string>> set;  // route, "--set path=value"
 
   // The place of the field, or of the nearest thing around it that was written.
   Place Find(const Route& route) const;

@@ -77,6 +77,16 @@ TrackSet TrackSet::Inside(const std::vector<Route>& routes) const {
   return set;
 }
 
+std::vector<double> TrackSet::KeyFrames() const {
+  std::vector<double> frames;
+  for (const Entry& entry : entries_) {
+    for (const auto& key : entry.track.key()) frames.push_back(key.frame());
+  }
+  std::sort(frames.begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  return frames;
+}
+
 double TrackSet::first_frame() const {
   double first = entries_.empty() ? 1 : entries_[0].track.key(0).frame();
   for (const Entry& entry : entries_) first = std::min(first, entry.track.key(0).frame());

@@ -40,6 +40,10 @@ class TrackSet {
   double first_frame() const;
   double last_frame() const;
   bool empty() const { return entries_.empty(); }
+  size_t size() const { return entries_.size(); }
+  // The frames of all keys, ascending, each once. Between two of them every number that the tracks
+  // write goes one way only.
+  std::vector<double> KeyFrames() const;
 
  private:
   struct Entry {

@@ -45,6 +45,12 @@ void CheckOutput(const v1::Output& output, SceneErrors* errors) {
   if (output.samples() != 1 && output.samples() != 4 && output.samples() != 16) {
     errors->Add(route.Then("samples"), std::to_string(output.samples()) + " is not 1, 4 or 16");
   }
+  const bool exr =
+      output.format() == v1::Output::EXR_HALF || output.format() == v1::Output::EXR_FLOAT;
+  for (int i = 0; i < output.layers_size() && !exr; ++i) {
+    if (output.layers(i) == v1::Output::COLOR) continue;
+    errors->Add(route.Then("layers", i), "only EXR pictures have layers; set format: EXR_HALF");
+  }
 }
 
 void CheckCamera(const v1::Camera& camera, SceneErrors* errors) {
@@ -76,6 +82,9 @@ void CheckLights(const v1::Scene& scene, SceneErrors* errors) {
     if (light.kind() == v1::Light::LOCAL && !light.has_position()) {
       errors->Add(route, "a LOCAL light needs a position");
     }
+    if (light.kind() == v1::Light::LOCAL && light.shadow()) {
+      errors->Add(route.Then("shadow"), "only DIRECTIONAL lights are kept off; leave shadow out");
+    }
     if (light.kind() == v1::Light::DIRECTIONAL && Length(ToVec3(light.direction())) == 0) {
       errors->Add(route, "a DIRECTIONAL light needs a direction, from the scene towards the light");
     }
@@ -95,6 +104,8 @@ void CheckObject(const v1::Scene& scene, int index, const SceneShapes& shapes,
   }
   CheckKeys(scene, index, shapes, errors);
   CheckFractal(scene, index, shapes, errors);
+  for (int i = 0; i < object.material().stage_size(); ++i)
+    CheckEntry(object.material().stage(i), route.Then("material").Then("stage", i), errors);
 
   const v1::Material& material = object.material();
   const Route place = route.Then("material");

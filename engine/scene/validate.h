@@ -32,6 +32,12 @@ std::string FaceDifference(const Geometry& before, const Geometry& now,
                            std::span<const uint32_t> number_of);
 void CheckFractal(const v1::Scene& scene, int object, const SceneShapes& shapes,
                   SceneErrors* errors);
+// A message that stands for a registry's entry, by the entry's table.
+void CheckEntry(const google::protobuf::Message& entry, const Route& route, SceneErrors* errors);
+// The same where the entry is not known yet: what every entry of the kind refuses.
+void CheckForAnyEntry(const google::protobuf::Message& entry, const Route& route,
+                      SceneErrors* errors);
+bool IsPrintable(const std::string& text);
 // Opens what tracks write to (camera.eye where only its track is given).
 void CheckTracks(v1::Scene* scene, SceneErrors* errors);
 

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "engine/fractal/registry.h"
+#include "engine/scene/parameters.h"
 #include "engine/scene/ranges.h"
 #include "engine/scene/validate.h"
 
@@ -21,16 +21,22 @@ std::string WhyFixed(const v1::Scene& scene, const Route& route) {
   if (top != "objects" || steps.size() < 2) return "";
   const std::string& part = steps[1].field->name();
   if (part == "key") return "a key picture stands at one frame; add a key instead";
+  if (part == "placements") return "placements stand still; move the object's own transform";
   if (part == "shape" && scene.objects(steps[0].index).key_size() > 0)
     return "the shape comes from keys";
+  if (part == "shape" && steps.size() > 3 && steps[2].field->name() == "heights" &&
+      steps[3].field->name() != "size") {
+    return "of heights only the size can change";
+  }
   return "";
 }
 
 // Whole numbers and texts: what they are for decides what to tell.
 std::string WhyNotNumber(const Route& route) {
   const FieldDescriptor& field = *route.steps.back().field;
-  const std::string& name = field.name();
-  if (field.containing_type() == v1::Fractal::descriptor()) {
+  const Knob* knob = route.steps.back().knob;
+  const std::string name = knob != nullptr ? std::string(knob->name) : field.name();
+  if (knob != nullptr || field.containing_type() == v1::Fractal::descriptor()) {
     return name + " shapes the whole shot; it cannot change over time";
   }
   if (name == "rest_frame" || name == "segments" || name == "rings") {
@@ -59,13 +65,33 @@ std::string MissingOwner(const v1::Scene& scene, const Route& route) {
   return "";
 }
 
-// The fractal knob that a route leads to, or null.
-const Knob* KnobOf(const Route& route) {
-  if (route.steps.back().field->containing_type() != v1::Fractal::descriptor()) return nullptr;
-  for (const Knob& knob : AllKnobs()) {
-    if (knob.name == route.steps.back().field->name()) return &knob;
-  }
-  return nullptr;
+const google::protobuf::Descriptor* EntryType(const Route& route) {
+  size_t at = route.steps.size();
+  while (route.steps[at - 1].knob != nullptr) --at;
+  return route.steps[at - 1].field->message_type();
+}
+
+// The entry that the knob at the route's end belongs to; its info null where there is none of that
+// name.
+struct OwnerOfKnob {
+  const EntryInfo* info = nullptr;
+  std::any settings;
+};
+
+OwnerOfKnob FindOwner(const v1::Scene& scene, const Route& route) {
+  Route entry = route;
+  while (entry.steps.back().knob != nullptr) entry.steps.pop_back();
+  const EntryKind& kind = *KindOf(EntryType(route));
+  entry.steps.push_back({EntryType(route)->field(0), -1});  // any field of it
+  const google::protobuf::Message* message = FindParent(scene, entry);
+  OwnerOfKnob owner;
+  if (message == nullptr) return owner;
+  owner.info = kind.Find(EntryName(kind, *message));
+  if (owner.info == nullptr) return owner;
+  std::vector<KnobDefect> defects;
+  owner.settings =
+      owner.info->knobs.Read(ValuesOf(ParametersOf(*message)), owner.info->name, &defects);
+  return owner;
 }
 
 class TrackChecker {
@@ -93,7 +119,7 @@ class TrackChecker {
     } else if (const std::string missing = MissingOwner(*scene_, *target); !missing.empty()) {
       errors_->Add(here.Then("path"), track.path() + ": " + missing);
     } else {
-      CheckKnob(track.path(), *target, here);
+      if (!CheckKnob(track.path(), *target, here)) return;
       CheckTrackKeys(track, here, *target, count);
       CheckAlone(track.path(), *target, here);
       OpenParent(scene_, *target);
@@ -107,17 +133,28 @@ class TrackChecker {
     return FindRoute(*scene_, *path);
   }
 
-  void CheckKnob(const std::string& path, const Route& target, const Route& here) {
-    const Knob* knob = KnobOf(target);
-    if (knob == nullptr) return;
-    const MethodInfo* method =
-        FindFractalMethod(scene_->objects(target.steps[0].index).fractal().method());
-    if (method == nullptr) return;
-    for (const std::string_view known : method->knobs) {
-      if (known == knob->name) return;
+  // The entry's own knob of that name decides; false where it cannot have a track.
+  bool CheckKnob(const std::string& path, const Route& target, const Route& here) {
+    knob_ = target.steps.back().knob;
+    if (knob_ == nullptr) return true;
+    owner_ = FindOwner(*scene_, target);
+    const OwnerOfKnob& owner = owner_;
+    if (owner.info == nullptr) {
+      knob_ = nullptr;
+      return true;
     }
-    errors_->Add(here.Then("path"),
-                 path + ": method " + std::string(method->name) + " has no such knob");
+    knob_ = owner.info->knobs.Find(knob_->name);
+    if (knob_ == nullptr) {
+      const EntryKind& kind = *KindOf(EntryType(target));
+      errors_->Add(here.Then("path"), path + ": " + std::string(kind.noun) + " " +
+                                          std::string(owner.info->name) + " has no such knob");
+      return false;
+    }
+    if (!knob_->Works(owner.settings)) {
+      errors_->Add(here.Then("path"), path + " " + IdleText(*knob_));
+      return false;
+    }
+    return true;
   }
 
   void CheckTrackKeys(const v1::Track& track, const Route& here, const Route& target, int count) {
@@ -143,14 +180,26 @@ class TrackChecker {
     }
   }
 
+  // The row's range, and the entry's rules with this value beside the others.
+  void CheckKnobValue(double value, const Route& target, const Route& place) {
+    if (knob_ == nullptr) return;
+    if (!knob_->range.Holds(value)) {
+      errors_->Add(place, NumberText(value) + " is out of range: " + knob_->range.ToString());
+      return;
+    }
+    if (NumberCount(target.steps.back()) != 1 || target.steps.back().index >= 0) return;
+    std::any settings = owner_.settings;
+    knob_->Set(settings, {.numbers = {value}});
+    for (const KnobDefect& defect : owner_.info->knobs.Check(settings, owner_.info->name)) {
+      if (defect.knob == knob_->name) errors_->Add(place, defect.message);
+    }
+  }
+
   // Easing never leaves the two keys' values, so what holds at the keys holds between.
   void CheckRange(double value, const Route& target, const Route& place) {
     const FieldDescriptor& field = *target.steps.back().field;
-    if (const Knob* knob = KnobOf(target); knob != nullptr) {
-      const NumberRange range{knob->lowest, knob->highest, false};
-      if (!range.Holds(value)) {
-        errors_->Add(place, NumberText(value) + " is out of range: " + range.ToString());
-      }
+    if (target.steps.back().knob != nullptr) {
+      CheckKnobValue(value, target, place);
       return;
     }
     const NumberRange* range = RangeOf(field);
@@ -183,6 +232,8 @@ class TrackChecker {
 
   v1::Scene* scene_;
   SceneErrors* errors_;
+  OwnerOfKnob owner_;
+  const Knob* knob_ = nullptr;  // what the track at hand changes; null: a plain field
   std::map<std::string, std::vector<std::pair<Route, std::string>>> seen_;
 };
 

@@ -1,6 +1,7 @@
 // CheckCounts and CheckValues of validate.h.
 #include <google/protobuf/descriptor.h>
 
+#include "engine/scene/entry_kinds.h"
 #include "engine/scene/limits.h"
 #include "engine/scene/ranges.h"
 #include "engine/scene/validate.h"
@@ -11,22 +12,6 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::Reflection;
-
-bool IsPrintable(const std::string& text) {
-  int follow = 0;  // bytes of the character still to come
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (follow > 0) {
-      if ((byte & 0xc0) != 0x80) return false;
-      --follow;
-    } else if (byte < 0x20 || byte == 0x7f || (byte >= 0x80 && byte < 0xc2) || byte > 0xf4) {
-      return false;
-    } else if (byte >= 0x80) {
-      follow = byte >= 0xf0 ? 3 : byte >= 0xe0 ? 2 : 1;
-    }
-  }
-  return follow == 0;
-}
 
 // Takes the place of a number that is refused: within every range of ranges.cpp.
 constexpr uint32_t kStandIn = 1;
@@ -40,7 +25,10 @@ class ValueChecker {
     const Reflection& reflection = *message->GetReflection();
     std::vector<const FieldDescriptor*> fields;
     reflection.ListFields(*message, &fields);
+    const bool entry = KindOf(message->GetDescriptor()) != nullptr;
     for (const FieldDescriptor* field : fields) {
+      if (entry && field->name() == "parameter")
+        continue;  // its table's matter: validate_entries.cpp
       const int count = field->is_repeated() ? reflection.FieldSize(*message, field) : 1;
       for (int i = 0; i < count && !errors_->Full(); ++i) {
         route_.steps.push_back({field, field->is_repeated() ? i : -1});
@@ -121,6 +109,22 @@ uint64_t PointsIn(const v1::Shape& shape) {
 
 }  // namespace
 
+bool IsPrintable(const std::string& text) {
+  int follow = 0;  // bytes of the character still to come
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (follow > 0) {
+      if ((byte & 0xc0) != 0x80) return false;
+      --follow;
+    } else if (byte < 0x20 || byte == 0x7f || (byte >= 0x80 && byte < 0xc2) || byte > 0xf4) {
+      return false;
+    } else if (byte >= 0x80) {
+      follow = byte >= 0xf0 ? 3 : byte >= 0xe0 ? 2 : 1;
+    }
+  }
+  return follow == 0;
+}
+
 bool CheckCounts(const v1::Scene& scene, SceneErrors* errors) {
   bool within = true;
   const auto check = [&](uint64_t count, uint64_t most, const Route& route,
@@ -132,6 +136,9 @@ bool CheckCounts(const v1::Scene& scene, SceneErrors* errors) {
   };
   const auto size = [](int n) { return static_cast<uint64_t>(n); };
   check(size(scene.objects_size()), limits::kObjects, Route().Then("objects"), "objects");
+  uint64_t placements = 0;
+  for (const v1::Object& object : scene.objects()) placements += size(object.placements_size());
+  check(placements, limits::kPlacements, Route().Then("objects"), "placements");
   check(size(scene.lights_size()), limits::kLights, Route().Then("lights"), "lights");
   check(size(scene.track_size()), limits::kTracks, Route().Then("track"), "tracks");
   uint64_t keys = 0, points = 0, track_keys = 0;

@@ -65,6 +65,21 @@ Box TrackedBox(const v1::Scene& scene, int object, const TrackSet& tracks, Box b
   return box;
 }
 
+// Round the box at every placement.
+Box PlacedBox(const v1::Object& object, const Box& box) {
+  if (object.placements_size() == 0) return box;
+  Box placed;
+  for (const v1::Transform& placement : object.placements()) {
+    const ObjectTransform transform(placement);
+    for (int corner = 0; corner < 8; ++corner) {
+      placed.Add(transform.ToWorld({(corner & 1) != 0 ? box.high.x : box.low.x,
+                                    (corner & 2) != 0 ? box.high.y : box.low.y,
+                                    (corner & 4) != 0 ? box.high.z : box.low.z}));
+    }
+  }
+  return placed;
+}
+
 // A scene without its shapes, light enough to apply tracks to.
 v1::Scene WithoutShapes(const v1::Scene& scene) {
   v1::Scene light;
@@ -89,6 +104,7 @@ Box WorldBox(const v1::Scene& scene, const SceneShapes& shapes, const TrackSet& 
     const TrackSet shape_tracks = of_object.Inside({route.Then("shape")});
     if (!shape_tracks.empty()) box = TrackedBox(scene, i, shape_tracks, box);
     if (box.empty) continue;
+    box = PlacedBox(scene.objects(i), box);
     const TrackSet moves = of_object.Inside({route.Then("transform")});
     for (const double frame : SampledFrames(moves, scene.output().frames())) {
       moves.Apply(frame, &now);
@@ -206,10 +222,19 @@ void FillViewDefaults(v1::Scene* scene, const SceneShapes& shapes) {
     const double distance = LeastEyeDistance(*scene, tracks);
     camera->set_near(distance > 0 ? .01 * distance : .01);
   }
+  if (scene->has_haze() && !scene->haze().has_density()) {
+    const double across = Length(box.Size());
+    scene->mutable_haze()->set_density(across > 0 ? .2 / across : 0);
+  }
   for (v1::Light& light : *scene->mutable_lights()) {
     if (light.kind() == v1::Light::LOCAL && !light.has_range()) {
       const double reach = 2 * Length(box.Size());
       light.set_range(reach > 0 ? reach : 1);
+    }
+    if (light.shadow() && !light.has_shadow_detail()) {
+      constexpr double kTexels = 2048;  // across all that is there during the shot
+      const double across = Length(box.Size());
+      light.set_shadow_detail(across > 0 ? across / kTexels : 1);
     }
   }
 }

@@ -55,9 +55,7 @@ Answer<JobId> Machine::Command(JobId id, JobCommand command, int32_t priority, N
   switch (command) {
     case JobCommand::kCancel:
       job.row.cancelled = true;
-      for (Frame& frame : job.frames) {
-        if (frame.key != nullptr) Settle(*frame.key, now);
-      }
+      SettleKeysOf(job, now);
       break;
     case JobCommand::kPause:
     case JobCommand::kResume:
@@ -78,11 +76,21 @@ Answer<JobId> Machine::Command(JobId id, JobCommand command, int32_t priority, N
   return id;
 }
 
+// Once each key, of which many frames may be. What is done or has failed stays as it is.
+void Machine::SettleKeysOf(const Job& job, Now now) {
+  std::set<Digest> settled;
+  for (const Frame& frame : job.frames) {
+    if (frame.key == nullptr || frame.key->done() || frame.key->failed()) continue;
+    if (settled.insert(frame.key->digest).second) Settle(*frame.key, now);
+  }
+}
+
 void Machine::Retry(Job& job, Now now) {
   job.row.error.clear();
   const std::set<uint32_t> failed = job.failed;
   for (const uint32_t index : failed) {
     Key* key = job.frames[index].key;
+    if (job.frames[index].state != FrameState::kFailed) continue;  // by another frame of its key
     if (key == nullptr) {
       job.unkeyed_errors.erase(index);
       Write(FrameRow{job.row.id, job.FrameNumber(index), std::nullopt, false, {}});
@@ -168,9 +176,14 @@ void Machine::Planned(JobId id, uint32_t number, const Digest& digest, Now now) 
     frame->cached = key.done();
     key.wanters.push_back({id, index});
     Write(FrameRow{id, number, digest, frame->cached, {}});
+    const uint32_t required = key.required;
     if (!key.done()) RequireProof(key, job);
     if (job.recovered) key.hold_until_ms = held_until_ms_;
-    Settle(key, now);
+    if (key.wanters.size() == 1 || key.required != required) {
+      Settle(key, now);
+    } else {  // of the frames that want this key, the new one alone has something to learn
+      SettleFrame(key, key.wanters.back());
+    }
   }
   Finish(now);
 }
@@ -195,12 +208,9 @@ void Machine::SceneUnusable(JobId id, std::string error, Now now) {
     Frame& frame = job.frames[index];
     if (frame.planning) --job.planning;
     frame.planning = false;
-    if (frame.key != nullptr) {
-      Settle(*frame.key, now);
-    } else {
-      SetFrame(job, index, FrameState::kFailed);
-    }
+    if (frame.key == nullptr) SetFrame(job, index, FrameState::kFailed);
   }
+  SettleKeysOf(job, now);
   Write(job.row);
   touched_.insert(id);
   Finish(now);

@@ -168,12 +168,14 @@ class Machine {
   bool Runnable(const Job& job) const;
   void PlanAhead(Job& job);
   void Retry(Job& job, Now now);
+  void SettleKeysOf(const Job& job, Now now);
   Frame* TakePlan(JobId id, uint32_t number);
   void RequireProof(Key& key, const Job& job);
   Key& AddKey(const Digest& key, const Digest& scene, uint32_t frame);
   // settle.cpp: the one door through which states change
   void SetFrame(Job& job, uint32_t index, FrameState state);
   void Settle(Key& key, Now now);
+  void SettleFrame(const Key& key, FrameRef ref);
   void SettleJobs(Now now);
   void OpenProject(const std::string& project);
   void Finish(Now now);  // after every event

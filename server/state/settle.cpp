@@ -76,15 +76,17 @@ void Machine::Settle(Key& key, Now) {
   key.verdict = Judge(key.evidence, key.required);
   const size_t sensible = Wanted(key) ? key.slots() : 0;
   while (key.live.size() > sensible) EndAttempt(key.live.back());
-  for (const FrameRef ref : key.wanters) {
-    Job& job = jobs_.at(ref.job);
-    SetFrame(job, ref.index, StateFor(job, key));
-    const uint32_t position = job.frames[ref.index].position;
-    if (!NeedsAttempt(job, key)) {
-      job.ready.erase(position);
-    } else if (job.ready.insert(position).second) {
-      dispatch_ = true;
-    }
+  for (const FrameRef ref : key.wanters) SettleFrame(key, ref);
+}
+
+void Machine::SettleFrame(const Key& key, FrameRef ref) {
+  Job& job = jobs_.at(ref.job);
+  SetFrame(job, ref.index, StateFor(job, key));
+  const uint32_t position = job.frames[ref.index].position;
+  if (!NeedsAttempt(job, key)) {
+    job.ready.erase(position);
+  } else if (job.ready.insert(position).second) {
+    dispatch_ = true;
   }
 }
 

@@ -23,8 +23,9 @@ inline std::shared_ptr<const Animation> Animate(const std::string& text,
   return animation.ok() ? *animation : nullptr;
 }
 
-inline v1::FrameScene FrameOf(const Animation& animation, uint32_t frame) {
-  Result<v1::FrameScene> scene = animation.Inbetween(frame, nullptr);
+inline v1::FrameScene FrameOf(const Animation& animation, uint32_t frame,
+                              AssetSet* assets = nullptr) {
+  Result<v1::FrameScene> scene = animation.Inbetween(frame, assets);
   EXPECT_TRUE(scene.ok()) << (scene.ok() ? "" : scene.error().ToString());
   return scene.ok() ? *scene : v1::FrameScene();
 }

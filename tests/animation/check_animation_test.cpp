@@ -5,8 +5,10 @@
 
 #include "engine/animation/coarse.h"
 #include "engine/animation/frame_geometry.h"
+#include "engine/fractal/midpoint_knobs.h"
 #include "engine/fractal/registry.h"
 #include "tests/animation/animate.h"
+#include "tests/fractal/choices.h"
 
 namespace fjord {
 namespace {
@@ -52,9 +54,9 @@ std::string Bow(double height, bool closed) {
 TEST(CheckAnimationTest, S25_NoMethodPops) {
   for (const MethodInfo& method : FractalMethods()) {
     const bool curve = method.takes == Takes::kCurve;
-    for (const Law law : method.laws) {
-      for (const Direction direction : method.directions) {
-        for (const Variant variant : method.variants) {
+    for (const Law law : test::LawsOf(method)) {
+      for (const Direction direction : test::DirectionsOf(method)) {
+        for (const Variant variant : test::VariantsOf(method)) {
           const std::string words = "law: " + std::string(LawName(law)) +
                                     " direction: " + std::string(DirectionName(direction)) +
                                     " variant: " + std::string(VariantName(variant));
@@ -93,6 +95,23 @@ TEST(CheckAnimationTest, SplitByLengthIsToldNotBlamed) {
   EXPECT_TRUE(check->objects[0].by_frame);
   EXPECT_GT(check->objects[0].identities_change, 1u);
   EXPECT_THAT(check->objects[0].verdict, HasSubstr("split by frame"));
+}
+
+// How a growing triangle is cut to be welded changes at a size where its tree does not.
+TEST(CheckAnimationTest, SplitByLengthIsComparedWhileTheTreeIsTheSame) {
+  const auto key = [](int frame, const std::string& side) {
+    return "key { frame: " + std::to_string(frame) +
+           " shape { mesh { point { } point { x: " + side + " } point { y: " + side +
+           " } face { v: [1,2,3] } } } }\n";
+  };
+  const auto animation =
+      Animate("output { frames: 6 }\nobjects { name: \"flat\"\n" + key(1, "2.85") + key(6, "2.88") +
+                  "fractal { method: \"surface\" split: LENGTH epsilon: .1 } }\n",
+              {{"objects[flat].fractal.amplitude", "0"}});
+  const Result<AnimationCheck> check = CheckAnimation(*animation);
+  ASSERT_TRUE(check.ok()) << check.error().ToString();
+  EXPECT_GT(check->objects[0].vertices, 1000u);
+  EXPECT_EQ(check->objects[0].identities_change, 0u);
 }
 
 TEST(CheckAnimationTest, BigShapesAreCheckedCoarser) {
@@ -191,17 +210,19 @@ TEST(CoarseTest, FacesAreCutByTheRestPose) {
 }
 
 TEST(CoarseTest, C47_SettingsArriveAsTheSceneGivesThem) {
-  const auto animation = Animate(Rising(
-      "method: \"surface\" seed: 77 H: .31 sigma: 1.5 amplitude: .2 law: SIMILAR direction: EDGE "
-      "variant: PERTURBED epsilon: .25 max_level: 9 uniforms: 5 move: .3 perturb: .4 stretch: "
-      "false "
-      "coast: true coast_H: .8"));
-  const FractalSettings settings = FractalSettingsOf(FrameOf(*animation, 3).object(0).fractal());
+  const auto settings_of = [](const std::string& fractal) {
+    const auto animation = Animate(Rising(fractal));
+    auto settings = MethodSettingsOf(FrameOf(*animation, 3).object(0).fractal());
+    EXPECT_TRUE(settings.ok());
+    return JoinMidpoint(*settings, settings->own);
+  };
+  const FractalSettings settings = settings_of(
+      "method: \"surface\" seed: 77 H: .31 sigma: 1.5 law: SIMILAR direction: EDGE variant: "
+      "PERTURBED epsilon: .25 max_level: 9 uniforms: 5 perturb: .4 coast: true coast_H: .8");
   EXPECT_EQ(settings.method, "surface");
   EXPECT_EQ(settings.seed, 77u);
   EXPECT_EQ(settings.H, .31);
   EXPECT_EQ(settings.sigma, 1.5);
-  EXPECT_EQ(settings.amplitude, .2);
   EXPECT_EQ(settings.law, Law::kSimilar);
   EXPECT_EQ(settings.direction, Direction::kEdge);
   EXPECT_EQ(settings.variant, Variant::kPerturbed);
@@ -209,11 +230,12 @@ TEST(CoarseTest, C47_SettingsArriveAsTheSceneGivesThem) {
   EXPECT_EQ(settings.fineness.epsilon, .25);
   EXPECT_EQ(settings.max_level, 9u);
   EXPECT_EQ(settings.uniforms, 5u);
-  EXPECT_EQ(settings.move, .3);
   EXPECT_EQ(settings.perturb, .4);
-  EXPECT_FALSE(settings.stretch);
   EXPECT_TRUE(settings.coast);
   EXPECT_EQ(settings.coast_H, .8);
+  EXPECT_EQ(settings_of("law: SHIH move: .3").move, .3);
+  EXPECT_EQ(settings_of("amplitude: .2").amplitude, .2);
+  EXPECT_FALSE(settings_of("stretch: false").stretch);
 }
 
 }  // namespace

@@ -122,7 +122,8 @@ TEST(FinenessTest, ATurntableIsNotMadeInfinitelyFine) {
 
 TEST(EyeBoundTest, OneEyeStandsForAllUpToTheBoxesEdges) {
   // eyes close to the box, where the bound changes fast within a cell
-  const std::vector<Vec3> eyes = {{1.3, 0, .2}, {0, 1.4, 0}, {-1.2, -1.3, .1}, {1.05, 1.05, 1.05}};
+  const std::vector<EyeBound> eyes = {
+      {{1.3, 0, .2}, 0}, {{0, 1.4, 0}, .1}, {{-1.2, -1.3, .1}, 0}, {{1.05, 1.05, 1.05}, .02}};
   const Box box = UnitBox();
   for (const EyeBound& bound : BoundEyes(eyes, box, 8)) {
     double closest = 1e300;
@@ -130,8 +131,9 @@ TEST(EyeBoundTest, OneEyeStandsForAllUpToTheBoxesEdges) {
       for (int j = 0; j <= 64; ++j) {
         for (int k = 0; k <= 64; ++k) {
           const Vec3 x = box.low + Vec3(i, j, k) / 64. * box.Size();
-          for (const Vec3& eye : eyes) {
-            const double spare = Length(x - eye) - (Length(x - bound.center) - bound.radius);
+          for (const EyeBound& eye : eyes) {
+            const double spare =
+                Length(x - eye.center) - eye.radius - (Length(x - bound.center) - bound.radius);
             ASSERT_GE(spare, 0) << i << " " << j << " " << k;
             closest = std::min(closest, spare);
           }

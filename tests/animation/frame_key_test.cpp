@@ -168,6 +168,9 @@ TEST(FrameKeyTest, UnsetNewFieldsNeverChangeAKey) {
     }
   }
   google::protobuf::DescriptorPool pool;
+  google::protobuf::FileDescriptorProto parameter;
+  v1::Parameter::descriptor()->file()->CopyTo(&parameter);
+  ASSERT_NE(pool.BuildFile(parameter), nullptr);
   const auto* built = pool.BuildFile(file);
   ASSERT_NE(built, nullptr);
   google::protobuf::DynamicMessageFactory factory(&pool);
@@ -187,20 +190,21 @@ TEST(FrameKeyTest, UnsetNewFieldsNeverChangeAKey) {
 
 // frame.proto's own rules, which the walk rests on.
 TEST(FrameKeyTest, FrameSchemaHasNoPresenceButMessages) {
-  const auto* file = v1::FrameScene::descriptor()->file();
-  for (int m = 0; m < file->message_type_count(); ++m) {
-    for (int f = 0; f < file->message_type(m)->field_count(); ++f) {
-      const FieldDescriptor* field = file->message_type(m)->field(f);
-      EXPECT_EQ(field->containing_oneof(), nullptr) << field->full_name();
-      EXPECT_FALSE(field->is_map()) << field->full_name();
-      const auto type = field->cpp_type();
-      EXPECT_TRUE(
-          type == FieldDescriptor::CPPTYPE_DOUBLE || type == FieldDescriptor::CPPTYPE_BOOL ||
-          type == FieldDescriptor::CPPTYPE_UINT32 || type == FieldDescriptor::CPPTYPE_UINT64 ||
-          type == FieldDescriptor::CPPTYPE_STRING || type == FieldDescriptor::CPPTYPE_MESSAGE)
-          << field->full_name();
+  for (const auto* file :
+       {v1::FrameScene::descriptor()->file(), v1::Parameter::descriptor()->file()})
+    for (int m = 0; m < file->message_type_count(); ++m) {
+      for (int f = 0; f < file->message_type(m)->field_count(); ++f) {
+        const FieldDescriptor* field = file->message_type(m)->field(f);
+        EXPECT_EQ(field->containing_oneof(), nullptr) << field->full_name();
+        EXPECT_FALSE(field->is_map()) << field->full_name();
+        const auto type = field->cpp_type();
+        EXPECT_TRUE(
+            type == FieldDescriptor::CPPTYPE_DOUBLE || type == FieldDescriptor::CPPTYPE_BOOL ||
+            type == FieldDescriptor::CPPTYPE_UINT32 || type == FieldDescriptor::CPPTYPE_UINT64 ||
+            type == FieldDescriptor::CPPTYPE_STRING || type == FieldDescriptor::CPPTYPE_MESSAGE)
+            << field->full_name();
+      }
     }
-  }
 }
 
 TEST(FrameKeyTest, BigPackedListsAreExact) {

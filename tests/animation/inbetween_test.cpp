@@ -48,6 +48,21 @@ std::string KeyBits(const v1::Scene& scene, int key) {
   return bits;
 }
 
+// The dither is in the key, by its version, where it is in the picture.
+TEST(InbetweenTest, W39_OnlyEightBitPicturesAreDithered) {
+  const auto dither = [](const std::string& output) {
+    const auto animation = Animate(kStill, {{"output.dither", "true"}, {"output.format", output}});
+    return FrameOf(*animation, 1).output().dither();
+  };
+  EXPECT_EQ(FrameOf(*Animate(kStill), 1).output().dither(), kDitherVersion);
+  EXPECT_EQ(dither("PNG8"), kDitherVersion);
+  EXPECT_EQ(dither("PNG16"), 0u);
+  EXPECT_EQ(dither("EXR_HALF"), 0u);
+  const auto plain = Animate(kStill, {{"output.dither", "false"}});
+  EXPECT_EQ(FrameOf(*plain, 1).output().dither(), 0u);
+  EXPECT_NE(KeyOf(*plain, 1), KeyOf(*Animate(kStill), 1));
+}
+
 TEST(InbetweenTest, S25_AtAKeyThePointsAreTheKeysBitForBit) {
   for (const std::string ease : {"LINEAR", "SMOOTH", "IN", "OUT", "HOLD"}) {
     for (const std::string path : {"", "path { kind: STEER control { z: .3 } }",
@@ -198,11 +213,14 @@ TEST_P(TrackedNumberTest, W2_MidKeyEqualsTheStaticSceneWithThatValue) {
       "}\nlights { name: \"lamp\" kind: LOCAL position { z: 3 } range: 9 }\nobjects { name: "
       "\"a\" " +
       Triangle(.1) +
-      " fractal { method: \"surface\" epsilon: .01 } material { ramp { height: -1 } ramp { height: "
+      " fractal { method: \"surface\" epsilon: .01 variant: PERTURBED coast: true } material { "
+      "ramp { height: -1 } ramp { height: "
       "1 } } "
       "transform {} }\n"
       "objects { name: \"ball\" shape { primitive { kind: TORUS radius: 2 tube: .5 } } }\n"
-      "objects { name: \"line\" shape { polyline { point {} point { x: 1 } } } }\n";
+      "objects { name: \"line\" shape { polyline { point {} point { x: 1 } } } }\n"
+      "objects { name: \"old\" shape { primitive { kind: GRID } } fractal { law: SHIH epsilon: 1 } "
+      "}\n";
   const auto moving =
       Animate("camera { near: .001 up { z: 1 } eye { x: 1 y: -6 z: 3 } look_at { z: .1 } }\n" +
                   scene + "track { path: \"" + track.path +
@@ -229,7 +247,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Tracked{"objects[a].fractal.H", .25, .75, .5},
                       Tracked{"objects[a].fractal.sigma", 1, 2, 1.5},
                       Tracked{"objects[a].fractal.amplitude", .25, .5, .375},
-                      Tracked{"objects[a].fractal.move", .25, .5, .375},
+                      Tracked{"objects[old].fractal.move", .25, .5, .375},
                       Tracked{"objects[a].fractal.perturb", 0, 1, .5},
                       Tracked{"objects[a].fractal.coast_H", .5, 1, .75},
                       Tracked{"objects[a].transform.translate.z", 0, 4, 2},
@@ -370,6 +388,28 @@ TEST(TravelTest, S25_SplineWeightsReproduceLinesAndParabolas) {
       }
     }
   }
+}
+
+// A still shot is one picture, whatever stages it has, unless one of them reads the time.
+TEST(InbetweenTest, TimeAndUvReachAFrameOnlyWhereAStageReadsThem) {
+  const auto shot = [](const std::string& stage) {
+    return Animate(
+        "output { frames: 9 } objects { shape { primitive { kind: SPHERE radius: 2 } } "
+        "material { " +
+        stage + " } }");
+  };
+  const auto plain = shot("");
+  const auto checker = shot("stage { kind: \"checker\" across: 6 }");
+  const auto noise = shot("stage { kind: \"noise\" }");
+  const auto drifting = shot("stage { kind: \"noise\" drift { x: .1 } }");
+  EXPECT_EQ(FrameOf(*plain, 3).object(0).uv(), 0u);
+  EXPECT_EQ(FrameOf(*noise, 3).object(0).uv(), 0u);
+  EXPECT_EQ(FrameOf(*checker, 3).object(0).uv(), 2u);
+  EXPECT_EQ(FrameOf(*checker, 3).object(0).uv_size(0), 2);
+  EXPECT_EQ(KeyOf(*checker, 1), KeyOf(*checker, 9));
+  EXPECT_EQ(KeyOf(*noise, 1), KeyOf(*noise, 9));
+  EXPECT_NE(KeyOf(*drifting, 1), KeyOf(*drifting, 9));
+  EXPECT_EQ(FrameOf(*drifting, 9).instant(), 9);
 }
 
 }  // namespace

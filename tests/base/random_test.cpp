@@ -120,12 +120,20 @@ TEST(RandomTest, S12_TangentDrawFillsItsRange) {
 }
 
 TEST(RandomTest, ChannelsAreIndependent) {
-  double product = 0;
+  // each by itself: two correlations of opposite sign would hide each other in a sum
+  double other_draw = 0, tangent = 0, tangent_size = 0;
   for (uint64_t i = 0; i < 100'000; ++i) {
     const uint64_t id = Mix64(i + 1);
-    product += Gaussian(id, 4) * Gaussian(DrawBits(id, 5), 4) + Gaussian(id, 4) * TangentDraw(id);
+    const double gaussian = Gaussian(id, 4);
+    other_draw += gaussian * Gaussian(DrawBits(id, 5), 4);
+    tangent += gaussian * TangentDraw(id);
+    tangent_size += TangentDraw(id) * TangentDraw(id);
   }
-  EXPECT_NEAR(product / 100'000, 0, .02);
+  // four deviations of a mean of 100,000 products of unit deviation
+  constexpr double kFour = 4 / 316.2;
+  EXPECT_NEAR(other_draw / 100'000, 0, kFour);
+  EXPECT_NEAR(tangent / 100'000, 0, kFour * std::sqrt(tangent_size / 100'000));
+  EXPECT_GT(tangent_size, 1'000);
 }
 
 TEST(RandomDeathTest, TooManyUniforms) { EXPECT_DEATH(GaussianScale(17), "17"); }

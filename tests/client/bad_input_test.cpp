@@ -112,6 +112,59 @@ TEST_F(BadInputTest, CorrespondenceToMissingPoints) {
       ":7:", "9");
 }
 
+// More than any machine ever makes: told at once, at the knob, with what would fit.
+TEST_F(BadInputTest, ScenesThatNeverEnd) {
+  const std::string scene =
+      "output { frames: 1 width: 64 height: 64 }\nobjects { name: \"c\"\n  shape { primitive { "
+      "kind: GRID } }\n  fractal { epsilon: 1e-9 max_level: 40 } }\n";
+  ExpectRefused(scene, ":4:13", "epsilon 1e-09 would make about ");
+  ExpectRefused(scene, ":4:13", "the budget is 2e09; 8.7e-05 would fit");
+  ExpectRefused(WithFractal("epsilon: 1e-320"), ":5:31", "would make about ");
+  const std::string file = folder_.Write("endless.scene", scene);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"fractalize", file, "--frame", "1", "-o", folder_ / "a.ply"},
+        {"submit", file, "--server", "127.0.0.1:1"},
+        {"render", file, "-o", folder_ / "out", "--set", "objects[c].fractal.epsilon=1e-7"}}) {
+    const ProgramRun run = RunFjord(command);
+    EXPECT_EQ(run.code, 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(" would fit; --budget lifts it")) << command[0];
+  }
+  const ProgramRun set =
+      RunFjord({"render", file, "-o", folder_ / "out", "--set", "objects[c].fractal.epsilon=1e-7"});
+  EXPECT_THAT(set.err, HasSubstr("--set objects[c].fractal.epsilon=1e-7: error: "));
+  const ProgramRun lifted = RunFjord({"check", file, "--budget", "unlimited"});
+  EXPECT_EQ(lifted.code, 0) << lifted.err;
+  EXPECT_THAT(lifted.err, HasSubstr("triangles and segments in a frame's picture"));
+  EXPECT_EQ(RunFjord({"check", file, "--budget", "-3"}).code, 2);
+  EXPECT_EQ(RunFjord({"check", file, "--budget", "many"}).code, 2);
+}
+
+// A curve whose every segment is one of 2^40: it ended in std::bad_alloc.
+TEST_F(BadInputTest, CurvesThatNeverEnd) {
+  const std::string file = folder_.Write(
+      "explode.scene",
+      "output { frames: 1 }\nobjects { name: \"c\" shape { polyline { point {} point { x: 1 } } } "
+      "fractal { epsilon: 1e-9 max_level: 40 } }\n");
+  const ProgramRun run = RunFjord({"fractalize", file, "--frame", "1", "-o", folder_ / "a.obj"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.err, HasSubstr(" segments in a frame; the budget is 1e08; "));
+}
+
+TEST_F(BadInputTest, DevicesThatNeverEnd) {
+  std::filesystem::create_symlink("/dev/zero", folder_ / "zero.std");
+  const std::string scene = folder_.Write(
+      "zero.scene", "objects { name: \"a\" shape { file { path: \"zero.std\" } } }\n");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"check", folder_ / "zero.std"},
+        {"check", scene},
+        {"measure", folder_ / "zero.std"},
+        {"import", folder_ / "zero.std", "-o", folder_ / "made.scene"}}) {
+    const ProgramRun run = RunFjord(command);
+    EXPECT_EQ(run.code, 1) << command[0] << run.err;
+    EXPECT_THAT(run.err, HasSubstr("this is a device, which may never end")) << command[0];
+  }
+}
+
 TEST_F(BadInputTest, SeveralDefectsAtOnce) {
   const std::string file = folder_.Write("bad.scene", WithFractal("epsilon: -1 pixels: -2"));
   const ProgramRun run = RunFjord({"check", file});

@@ -141,7 +141,7 @@ TEST(CliTest, JsonIsOneDocumentAloneOnStdout) {
   EXPECT_EQ(rendered["rendered"], 2);
   EXPECT_EQ(JsonOf(RunFjord({"digest", folder / "out", "--json"})).size(), 2u);
   EXPECT_EQ(JsonOf(RunFjord({"check", scene, "--json"}))[0]["good"], true);
-  EXPECT_GE(JsonOf(RunFjord({"presets", "--json"}))["methods"].size(), 3u);
+  EXPECT_GE(JsonOf(RunFjord({"presets", "--json"}))["fractal"].size(), 3u);
   EXPECT_EQ(JsonOf(RunFjord({"presets", "surface", "--json"}))["name"], "surface");
   const auto measured = JsonOf(RunFjord({"measure", Example("data/taiwan.std"), "--json"}));
   EXPECT_EQ(measured["mesh.vertices"], 101);

@@ -122,6 +122,8 @@ TEST_F(FarmCliTest, AServerThatIsDownIsCode3WithTheRemedy) {
   for (std::vector<std::string> command : commands) {
     command.push_back("--server");
     command.push_back("127.0.0.1:1");
+    const bool waits = command[0] == "submit" || command[0] == "status" || command[0] == "fetch";
+    if (waits) command.insert(command.end(), {"--patience", "0"});
     const ProgramRun run = RunFjord(command);  // no gRPC runs here in this test
     EXPECT_EQ(run.code, 3) << command[0] << run.err;
     EXPECT_EQ(run.out, "") << command[0];
@@ -188,9 +190,89 @@ TEST_F(FarmCliTest, SubmitOfAServerThatGoesAwayStillSaysTheJob) {
   EXPECT_EQ(nlohmann::json::parse(run.out)["id"], "7");
 }
 
-TEST(FarmClientTest, AServerWithoutAPortIsAtTheUsualOne) {
-  EXPECT_EQ(FarmClient("localhost").address(), "localhost:7433");
-  EXPECT_EQ(FarmClient("localhost:1").address(), "localhost:1");
+TEST_F(FarmCliTest, WhatIsNoAddressIsRefusedWithItsPlace) {
+  const std::string scene = folder_.Write("tiny.scene", TinyScene(2));
+  const std::vector<std::vector<std::string>> commands = {{"submit", scene},
+                                                          {"status", "7"},
+                                                          {"watch", "7"},
+                                                          {"jobs"},
+                                                          {"workers"},
+                                                          {"cancel", "7"},
+                                                          {"fetch", "7", "-o", folder_ / "out"}};
+  for (const auto& [address, what] :
+       {std::pair<std::string, std::string>{"localhost", "has no port"},
+        {"127.0.0.1:", "has no port"},
+        {"127.0.0.1:65536", "has a port above 65535"},
+        {"127.0.0.1:0", "has port 0"},
+        {"127.0.0.1:http", "has a port that is no number"},
+        {":7433", "has no host"},
+        {"::1:7433", "has more than one colon"}}) {
+    for (std::vector<std::string> command : commands) {
+      command.insert(command.end(), {"--server", address});
+      const ProgramRun run = RunFjord(command);
+      EXPECT_EQ(run.code, 2) << command[0] << run.err;
+      EXPECT_THAT(run.err, HasSubstr("--server \"" + address + "\" " + what)) << command[0];
+      EXPECT_THAT(run.err, HasSubstr("write HOST:PORT, as 127.0.0.1:7433"));
+    }
+    const ProgramRun farm = RunFjord({"farm", "--listen", address, "--data", folder_ / "data"});
+    if (address == "127.0.0.1:0") continue;  // takes a free one
+    EXPECT_EQ(farm.code, 2) << farm.err;
+    EXPECT_THAT(farm.err, HasSubstr("--listen \"" + address + "\" " + what));
+    const ProgramRun server =
+        RunProgram({FJORD_SERVER_PROGRAM, "--listen", address, "--data", folder_ / "data"});
+    EXPECT_EQ(server.code, 2) << server.err;
+    EXPECT_THAT(server.err, HasSubstr("--listen \"" + address + "\" " + what));
+    const ProgramRun worker = RunProgram({FJORD_WORKER_PROGRAM, "--server", address});
+    EXPECT_EQ(worker.code, 2) << worker.err;
+    EXPECT_THAT(worker.err, HasSubstr("\"" + address + "\" " + what));
+  }
+  ProgramOptions options;
+  options.environment = {"FJORD_SERVER=localhost:99999"};
+  const ProgramRun run = RunFjord({"jobs"}, options);
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("$FJORD_SERVER \"localhost:99999\" has a port above 65535"));
+}
+
+// A coordinator that goes away in the middle of a command and comes back is waited for.
+class RestartingJobs : public FakeJobs {
+ public:
+  grpc::Status ListFrames(grpc::ServerContext* context, const v1::ListFramesRequest* request,
+                          v1::ListFramesResponse* response) override {
+    if (away-- > 0) return {grpc::StatusCode::UNAVAILABLE, "starting"};
+    return FakeJobs::ListFrames(context, request, response);
+  }
+  grpc::Status Submit(grpc::ServerContext* context, const v1::SubmitRequest* request,
+                      v1::SubmitResponse* response) override {
+    if (away-- > 0) return {grpc::StatusCode::UNAVAILABLE, "starting"};
+    return FakeJobs::Submit(context, request, response);
+  }
+  std::atomic<int> away{3};
+};
+
+TEST_F(FarmCliTest, ACoordinatorThatIsStartedAgainIsWaitedFor) {
+  RestartingJobs jobs;
+  jobs.takes_jobs = blobs_.has_all = true;
+  const std::string server = Serve(&jobs);
+  const ProgramRun status = RunFjordAnew({"status", "7", "--frames", "--json", "--server", server});
+  EXPECT_EQ(status.code, 0) << status.err;
+  EXPECT_THAT(status.err, HasSubstr("does not answer; trying again for 20 s"));
+  jobs.away = 3;
+  const std::string scene = folder_.Write("tiny.scene", TinyScene(2));
+  const ProgramRun submit = RunFjordAnew({"submit", scene, "--server", server});
+  EXPECT_EQ(submit.code, 0) << submit.err;
+  EXPECT_EQ(submit.out, "7\n");
+  EXPECT_THAT(submit.err, HasSubstr("trying again for 20 s"));
+  jobs.away = 1'000'000;
+  const ProgramRun given_up =
+      RunFjordAnew({"status", "7", "--frames", "--patience", "0.5", "--server", server});
+  EXPECT_EQ(given_up.code, 3) << given_up.err;
+  EXPECT_THAT(given_up.err, HasSubstr("trying again for 0.5 s"));
+}
+
+TEST_F(FarmCliTest, AServerThatNeverAnsweredIsGivenUpSoon) {
+  const ProgramRun run = RunFjordAnew({"status", "7", "--server", "127.0.0.1:1"});
+  EXPECT_EQ(run.code, 3);
+  EXPECT_THAT(run.err, HasSubstr("does not answer; trying again for 2 s"));
 }
 
 TEST_F(FarmCliTest, WatchOfAFailedJobIsCode1WithItsError) {

@@ -17,7 +17,9 @@ Manifest Example() {
   v1::Object* object = scene.add_objects();
   object->set_name("hill");
   object->mutable_fractal()->set_seed(1989);
-  object->mutable_fractal()->set_h(.3);
+  v1::Parameter* roughness = object->mutable_fractal()->add_parameter();
+  roughness->set_name("H");
+  roughness->add_number(.3);
   for (int i = 0; i < 5000; ++i) object->mutable_shape()->mutable_mesh()->add_point()->set_x(i);
   Manifest manifest = DescribeScene(scene, "hill.scene", Sha256Of("scene").Hex());
   manifest.frames[2] = {"hill.0002.png", Sha256Of("p").Hex(), Sha256Of("k").Hex(), 12345678901, 17};

@@ -4,6 +4,7 @@
 #include "engine/formats/import.h"
 #include "engine/scene/load.h"
 #include "tests/formats/expect_error.h"
+#include "tests/scene/entry_values.h"
 
 namespace fjord {
 namespace {
@@ -40,12 +41,12 @@ TEST(ImportSceneTest, S27_ParametersArrive) {
   const v1::Fractal keyed = Import(bytes, "a.std", kKeyed).objects(0).fractal();
   EXPECT_EQ(keyed.max_level(), 10u);
   EXPECT_EQ(keyed.epsilon(), .1);
-  EXPECT_EQ(keyed.move(), .4);
+  EXPECT_EQ(testing::ValueIn(keyed, "move"), "0.4");
   EXPECT_EQ(keyed.seed(), 71u);
-  EXPECT_EQ(keyed.h(), .3);
-  EXPECT_EQ(keyed.sigma(), .5);
-  EXPECT_EQ(keyed.law(), v1::Fractal::SHIH);
-  EXPECT_TRUE(keyed.coast());
+  EXPECT_EQ(testing::ValueIn(keyed, "H"), "0.3");
+  EXPECT_EQ(testing::ValueIn(keyed, "sigma"), "0.5");
+  EXPECT_EQ(testing::ValueIn(keyed, "law"), "SHIH");
+  EXPECT_EQ(testing::ValueIn(keyed, "coast"), "true");
   EXPECT_EQ(Import(bytes, "a.std", kPositional).objects(0).fractal().epsilon(), .075);
 }
 

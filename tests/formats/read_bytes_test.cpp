@@ -1,6 +1,7 @@
 #include "engine/formats/read_bytes.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -46,7 +47,45 @@ TEST_F(ReadBytesTest, SaysWhatIsWrong) {
   const std::string long_one = Write("long", "12345678901");
   ExpectError(ReadBytes(long_one, 10), long_one, "has 11 bytes; at most 10 are read");
   EXPECT_EQ(ReadBytes(long_one, 10).error().code, ErrorCode::kLimit);
-  EXPECT_EQ(ReadBytes("/dev/zero", 100'000).error().code, ErrorCode::kLimit);
+  ExpectError(ReadBytes("/dev/zero", 100'000), "/dev/zero", "is a device");
+}
+
+// A pipe that never ends: refused at the bound, with no more than that in memory.
+TEST_F(ReadBytesTest, EndlessPipesStopAtTheBound) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::string block(1 << 16, 'x');
+    close(ends[0]);
+    while (write(ends[1], block.data(), block.size()) > 0) {
+    }
+    _exit(0);
+  }
+  close(ends[1]);
+  const std::string path = "/dev/fd/" + std::to_string(ends[0]);
+  ExpectError(ReadBytes(path, 20'000'000), path, "more than 20000000 bytes");
+  close(ends[0]);
+  EXPECT_EQ(waitpid(child, nullptr, 0), child) << "the writer ends with its pipe";
+}
+
+TEST_F(ReadBytesTest, PipesThatEndAreRead) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::string block(3'000'001, 'x');
+    for (size_t sent = 0; sent < block.size();) {
+      sent += static_cast<size_t>(write(ends[1], block.data() + sent, block.size() - sent));
+    }
+    _exit(0);
+  }
+  close(ends[1]);
+  const auto bytes = ReadBytes("/dev/fd/" + std::to_string(ends[0]), 4'000'000);
+  ASSERT_TRUE(bytes.ok());
+  EXPECT_EQ(*bytes, std::string(3'000'001, 'x'));
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
 }
 
 // Two gigabytes that take no space on the disk.

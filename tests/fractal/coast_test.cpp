@@ -29,9 +29,9 @@ FractalSettings Coast(double H, double epsilon, uint64_t seed = 1) {
 std::vector<FractalSettings> ManySettings() {
   std::vector<FractalSettings> all;
   const MethodInfo& method = *FindFractalMethod("coast");
-  for (const Law law : method.laws) {
-    for (const Direction direction : method.directions) {
-      for (const Variant variant : method.variants) {
+  for (const Law law : test::LawsOf(method)) {
+    for (const Direction direction : test::DirectionsOf(method)) {
+      for (const Variant variant : test::VariantsOf(method)) {
         for (const double H : {.3, .7}) {
           FractalSettings s = Coast(H, .02, 5);
           s.law = law;
@@ -328,7 +328,7 @@ TEST(CoastTest, BadMeshesAreRefused) {
   const auto message = [](const auto& change) {
     CoarseShape shape = OutlineMesh();
     change(shape);
-    const auto prepared = PrepareCoast(shape, Coast(.7, .1), nullptr);
+    const auto prepared = PrepareCoast(shape, Coast(.7, .1));
     return prepared.ok() ? "" : prepared.error().message;
   };
   EXPECT_EQ(message([](auto& s) { s.now[3].z = std::nan(""); }),

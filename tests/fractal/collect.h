@@ -12,7 +12,9 @@
 
 #include "engine/base/digest.h"
 #include "engine/fractal/method.h"
+#include "engine/fractal/midpoint_knobs.h"
 #include "engine/fractal/registry.h"
+#include "tests/fractal/choices.h"
 
 namespace fjord::test {
 
@@ -152,11 +154,11 @@ inline FractalSettings SettingsOf(const std::string& method, double epsilon) {
   return settings;
 }
 
-inline std::unique_ptr<PreparedFractal> Prepare(CoarseShape shape, const FractalSettings& settings,
-                                                const AdaptiveView* view = nullptr) {
+inline std::unique_ptr<PreparedFractal> Prepare(CoarseShape shape,
+                                                const FractalSettings& settings) {
   const MethodInfo* method = FindFractalMethod(settings.method);
   FJORD_CHECK(method != nullptr, settings.method);
-  auto prepared = method->prepare(std::move(shape), ResolveSettings(*method, settings), view);
+  auto prepared = PrepareMidpoint(*method, std::move(shape), settings);
   FJORD_CHECK(prepared.ok(), prepared.error().message);
   return std::move(prepared).value();
 }

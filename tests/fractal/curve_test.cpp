@@ -415,7 +415,7 @@ TEST(CurveTest, S24_EdgesAndSeedsDiffer) {
 TEST(CurveTest, NumbersThatAreNotFiniteAreRefused) {
   CoarseShape shape = OutlineCurve();
   shape.now[1].y = std::nan("");
-  const auto prepared = PrepareCurve(shape, Fixed(.7, .1), nullptr);
+  const auto prepared = PrepareCurve(shape, Fixed(.7, .1));
   ASSERT_FALSE(prepared.ok());
   EXPECT_EQ(prepared.error().message, "point 2 of the curve is not finite");
 }
@@ -469,10 +469,7 @@ TEST(CurveTest, S21_AdaptiveDetailFadesIn) {
   s.split = Split::kAdaptive;
   const auto at = [&](double pixels) {
     s.fineness = {0, pixels, 100, .1, {0, 0, 3}, 0};
-    AdaptiveView view;
-    view.rows = {100, 0, 0, 0, 0, 100, 0, 0, 0, 0, -1, 3};
-    view.near = .1;
-    return Weld(*Prepare(OutlineCurve(), s, &view));
+    return Weld(*Prepare(OutlineCurve(), s));
   };
   const WeldedShape before = at(3);
   const auto after = ById(at(3 * .9999));
@@ -482,14 +479,24 @@ TEST(CurveTest, S21_AdaptiveDetailFadesIn) {
     ASSERT_NE(found, after.end());
     EXPECT_LT(Length(found->second.position - before.mesh.points[i]), 1e-4);
   }
-  // Offsets are those of the law, times w of the length in thresholds.
+  // Offsets are those of the law, times w of the length in thresholds, in the rest pose.
+  std::vector<Vec3> rest_place(before.mesh.points.size());
+  size_t corner = 0;
+  for (size_t i = 0; i < rest_place.size(); ++i) {
+    if (before.level[i] == 0) rest_place[i] = OutlineCurve().now[corner++];
+  }
+  std::vector<Halving> halvings = Halvings(before);
+  std::stable_sort(halvings.begin(), halvings.end(),
+                   [](const Halving& a, const Halving& b) { return a.level < b.level; });
   int faded = 0;
-  for (const Halving& h : Halvings(before)) {
+  for (const Halving& h : halvings) {
     const Vec3& a = before.mesh.points[h.a];
     const Vec3& b = before.mesh.points[h.b];
-    const double t = std::min(1.0, Length(b - a) * 100 / 3 / 3 - 1);
-    const double w = t * t * (3 - 2 * t);
+    rest_place[h.m] = (rest_place[h.a] + rest_place[h.b]) * .5;
     const double rest = RestLength(before, h);
+    const double distance = Length(rest_place[h.m] - Vec3(0, 0, 3));
+    const double t = std::min(1.0, rest * 100 / distance / 3 - 1);
+    const double w = t * t * (3 - 2 * t);
     const double full = .15 * std::pow(rest, .5) * AffineConstant(.5) *
                         std::abs(Gaussian(before.identity[h.m].lo, 4));
     EXPECT_NEAR(Length(before.mesh.points[h.m] - (a + b) * .5), full * w, 1e-12);

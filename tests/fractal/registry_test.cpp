@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "tests/fractal/collect.h"
@@ -16,54 +17,27 @@ using test::Leaf;
 
 struct Combination {
   const MethodInfo* method;
-  FractalSettings settings;
+  MethodSettings settings;
   std::string name;
 };
-
-// A camera three units above the shape, looking down, 400 pixels a unit at distance 1.
-AdaptiveView TestView() {
-  AdaptiveView view;
-  view.rows = {400, 0, -50, 150, 0, 400, -50, 150, 0, 0, -1, 3};
-  view.near = .1;
-  return view;
-}
 
 std::vector<Combination> AllCombinations() {
   std::vector<Combination> all;
   for (const MethodInfo& method : FractalMethods()) {
-    for (const Law law : method.laws) {
-      for (const Direction direction : method.directions) {
-        for (const Variant variant : method.variants) {
-          for (const Split split : method.splits) {
-            FractalSettings s = method.defaults;
-            s.law = law;
-            s.direction = direction;
-            s.variant = variant;
-            s.split = split;
-            s.seed = 11;
-            s.max_level = 5;
-            s.fineness.epsilon = method.takes == Takes::kCurve ? .05 : .1;
-            if (split == Split::kAdaptive) {
-              s.fineness = {0, 14, 400, .1, {0, 0, 3}, 0};
-            }
-            all.push_back({&method, s,
-                           std::string(method.name) + " " + std::string(LawName(law)) + " " +
-                               std::string(DirectionName(direction)) + " " +
-                               std::string(VariantName(variant)) + " " +
-                               std::string(SplitName(split))});
-          }
-        }
+    for (const test::Choice& choice : test::AllChoices(method)) {
+      for (const Split split : test::kSplits) {
+        MethodSettings s;
+        s.method = method.name;
+        s.own = choice.own;
+        s.split = split;
+        s.seed = 11;
+        s.max_level = 5;
+        s.fineness.epsilon = method.takes == Takes::kCurve ? .05 : .1;
+        if (split == Split::kAdaptive) s.fineness = {0, 14, 400, .1, {0, 0, 3}, 0};
+        all.push_back(
+            {&method, s,
+             std::string(method.name) + " " + choice.name + " " + std::string(SplitName(split))});
       }
-    }
-    if (method.additions) {
-      FractalSettings s = method.defaults;
-      s.law = Law::kAffine;
-      s.direction = Direction::kEdge;
-      s.variant = Variant::kFixed;
-      s.increments = Increments::kAdditions;
-      s.max_level = 7;
-      s.fineness.epsilon = .05;
-      all.push_back({&method, s, std::string(method.name) + " ADDITIONS"});
     }
   }
   return all;
@@ -77,35 +51,29 @@ CoarseShape ShapeFor(const MethodInfo& method) {
   return shape;
 }
 
-// nullptr for a method that is not built in.
 std::unique_ptr<PreparedFractal> PrepareCombination(const Combination& c) {
-  const AdaptiveView view = TestView();
-  auto prepared = c.method->prepare(ShapeFor(*c.method), c.settings, &view);
-  if (!prepared.ok()) {
-    EXPECT_EQ(prepared.error().code, ErrorCode::kInternal) << c.name;
-    return nullptr;
-  }
+  auto prepared = PrepareMethod(ShapeFor(*c.method), c.settings);
+  FJORD_CHECK(prepared.ok(), c.name, prepared.error().message);
   return std::move(prepared).value();
 }
 
-TEST(RegistryTest, NamesAreUniqueAndDefaultsResolved) {
+// What the tests below go over.
+TEST(RegistryTest, EveryChoiceOfEveryMethodIsCombined) {
+  std::set<std::string> names;
+  for (const Combination& c : AllCombinations()) names.insert(c.name);
+  EXPECT_EQ(names.size(), AllCombinations().size());
+  EXPECT_GE(names.size(), 244u);
+}
+
+TEST(RegistryTest, NamesAreUniqueAndDefaultsKeepTheTables) {
   std::set<std::string_view> names;
   for (const MethodInfo& method : FractalMethods()) {
     EXPECT_TRUE(names.insert(method.name).second);
     EXPECT_EQ(FindFractalMethod(method.name), &method);
     EXPECT_GE(method.version, 1u);
-    EXPECT_EQ(method.defaults.method, method.name);
-    EXPECT_NE(method.defaults.law, Law::kDefault);
-    EXPECT_NE(method.defaults.direction, Direction::kDefault);
-    EXPECT_NE(method.defaults.variant, Variant::kDefault);
-    EXPECT_TRUE(CheckSettings(method, method.defaults).empty());
-    EXPECT_TRUE(CheckSettings(method, FractalSettings{}).empty());
-    for (const std::string_view knob : method.knobs) {
-      const auto knobs = AllKnobs();
-      EXPECT_TRUE(std::any_of(knobs.begin(), knobs.end(), [&](const Knob& k) {
-        return k.name == knob && !k.effect.empty();
-      })) << knob;
-    }
+    EXPECT_FALSE(method.summary.empty());
+    EXPECT_TRUE(method.knobs.Check(method.knobs.defaults(), method.name).empty());
+    for (const Knob& knob : method.knobs.rows()) EXPECT_FALSE(knob.effect.empty()) << knob.name;
   }
   EXPECT_EQ(FindFractalMethod("no such method"), nullptr);
   EXPECT_EQ(FractalMethods()[0].name, "surface");
@@ -113,45 +81,51 @@ TEST(RegistryTest, NamesAreUniqueAndDefaultsResolved) {
   EXPECT_EQ(FractalMethods()[2].name, "curve");
 }
 
+// Three directions, variants and laws each, less what does not go together, and the additions.
+TEST(RegistryTest, EveryCombinationIsLookedAt) {
+  std::map<std::string_view, int> counts;
+  for (const Combination& c : AllCombinations()) ++counts[c.method->name];
+  EXPECT_EQ(counts["surface"], 3 * 3 * 4 * 3);
+  EXPECT_EQ(counts["coast"], 3 * 3 * 2 * 3);
+  EXPECT_EQ(counts["curve"], 3 * (3 * 3 * 3 + 1));
+}
+
 TEST(RegistryTest, BadSettingsAreNamed) {
   const MethodInfo& curve = *FindFractalMethod("curve");
   const auto defect = [&](const auto& change) {
-    FractalSettings s;
+    auto s = std::any_cast<FractalSettings>(curve.knobs.defaults());
     change(s);
-    const std::vector<SettingDefect> defects = FindSettingDefects(curve, s);
-    return defects.size() == 1 ? std::string(defects[0].field) + ": " + defects[0].message : "?";
+    const std::vector<KnobDefect> defects = curve.knobs.Check(s, curve.name);
+    return defects.size() == 1 ? defects[0].knob + ": " + defects[0].message : "?";
   };
-  EXPECT_EQ(defect([](auto& s) { s.H = 1.2; }), "H: H is 1.2; curve takes 0 to 1");
-  EXPECT_EQ(defect([](auto& s) { s.H = std::nan(""); }), "H: H is nan; curve takes 0 to 1");
-  EXPECT_EQ(defect([](auto& s) { s.H = .01; }),
-            "H: H is 0.01; curve takes 0.06 to 1 with law SIMILAR");
-  EXPECT_EQ(defect([](auto& s) { s.sigma = -1; }), "sigma: sigma is -1; curve takes 0 to 100");
-  EXPECT_EQ(defect([](auto& s) { s.max_level = 1000; }),
-            "max_level: max_level is 1000; curve takes 0 to 40");
-  EXPECT_EQ(defect([](auto& s) { s.uniforms = 0; }),
-            "uniforms: uniforms is 0; curve takes 1 to 16");
+  EXPECT_EQ(defect([](auto& s) { s.H = 1.2; }), "H: 1.2; curve takes 0 to 1");
+  EXPECT_EQ(defect([](auto& s) { s.H = std::nan(""); }),
+            "H: not a finite number; curve takes 0 to 1");
+  EXPECT_EQ(defect([](auto& s) { s.H = .01; }), "H: 0.01; law SIMILAR takes 0.06 to 1");
+  EXPECT_EQ(defect([](auto& s) { s.sigma = -1; }), "sigma: -1; curve takes 0 to 100");
+  EXPECT_EQ(defect([](auto& s) { s.uniforms = 0; }), "uniforms: 0; curve takes 1 to 16");
   EXPECT_EQ(defect([](auto& s) { s.direction = Direction::kFace; }),
-            "direction: direction FACE is not one of curve's: EDGE, VERTEX, UP");
-  EXPECT_EQ(
-      defect([](auto& s) { s.increments = Increments::kAdditions; }),
-      "increments: increments ADDITIONS goes with law AFFINE, direction EDGE and variant FIXED "
-      "only");
+            "direction: ? is not one of curve's: EDGE, VERTEX, UP");
+  EXPECT_EQ(defect([](auto& s) { s.increments = Increments::kAdditions; }),
+            "increments: ADDITIONS goes with law AFFINE, direction EDGE and variant FIXED only");
   FractalSettings two;
   two.H = 2;
   two.move = -1;
-  const Errors errors = CheckSettings(curve, two);
-  ASSERT_EQ(errors.size(), 2u);
-  EXPECT_EQ(errors[0].message, "fractal.H: H is 2; curve takes 0 to 1");
-  EXPECT_EQ(errors[0].code, ErrorCode::kInvalid);
+  const auto prepared = PrepareMidpoint(curve, ShapeFor(curve), two);
+  ASSERT_FALSE(prepared.ok());
+  EXPECT_EQ(prepared.error().message, "fractal.H: 2; curve takes 0 to 1");
+  EXPECT_EQ(prepared.error().code, ErrorCode::kInvalid);
+  FractalSettings deep;
+  deep.max_level = 1000;
+  const auto too_deep = PrepareMidpoint(curve, ShapeFor(curve), deep);
+  ASSERT_FALSE(too_deep.ok());
+  EXPECT_EQ(too_deep.error().message, "fractal.max_level: 1000; at most 40");
 }
 
 // M3
 TEST(RegistryTest, S3_StreamedAndWeldedHaveTheSameBits) {
   for (const Combination& c : AllCombinations()) {
     const auto fractal = PrepareCombination(c);
-    if (fractal == nullptr) {
-      continue;
-    }
     const auto streamed = test::StreamedLeaves(*fractal);
     EXPECT_GT(streamed.size(), fractal->RootCount()) << c.name;
     EXPECT_EQ(streamed, test::WeldedLeaves(test::Weld(*fractal))) << c.name;
@@ -162,9 +136,6 @@ TEST(RegistryTest, S3_StreamedAndWeldedHaveTheSameBits) {
 TEST(RegistryTest, S24_PatchesAndOrderChangeNothing) {
   for (const Combination& c : AllCombinations()) {
     const auto fractal = PrepareCombination(c);
-    if (fractal == nullptr) {
-      continue;
-    }
     const auto expected = test::StreamedLeaves(*fractal, 2048);
     CollectSink sink;
     for (size_t root = fractal->RootCount(); root-- > 0;) {
@@ -179,9 +150,6 @@ TEST(RegistryTest, S24_PatchesAndOrderChangeNothing) {
 TEST(RegistryTest, S7_NothingLeavesItsBound) {
   for (const Combination& c : AllCombinations()) {
     const auto fractal = PrepareCombination(c);
-    if (fractal == nullptr) {
-      continue;
-    }
     for (size_t root = 0; root < fractal->RootCount(); ++root) {
       CollectSink sink;
       fractal->Stream(root, sink, 512);
@@ -200,9 +168,6 @@ TEST(RegistryTest, S7_CullingLosesNothingThatIsWanted) {
   constexpr double kRadius = .25;
   for (const Combination& c : AllCombinations()) {
     const auto fractal = PrepareCombination(c);
-    if (fractal == nullptr) {
-      continue;
-    }
     const auto touches = [&](const Leaf& leaf) {
       return std::any_of(leaf.begin(), leaf.end(), [&](const test::Corner& corner) {
         const Vec3 p(std::bit_cast<double>(corner.bits[0]), std::bit_cast<double>(corner.bits[1]),
@@ -236,9 +201,6 @@ TEST(RegistryTest, S21_NothingPassesMaxLevel) {
     c.settings.fineness.epsilon = 1e-6;
     c.settings.fineness.pixels *= 1e-4;
     const auto fractal = PrepareCombination(c);
-    if (fractal == nullptr) {
-      continue;
-    }
     const WeldedShape welded = test::Weld(*fractal);
     EXPECT_EQ(*std::max_element(welded.level.begin(), welded.level.end()), 3) << c.name;
   }
@@ -247,9 +209,6 @@ TEST(RegistryTest, S21_NothingPassesMaxLevel) {
 TEST(RegistryTest, WeldStopsAtItsLimit) {
   for (const Combination& c : AllCombinations()) {
     const auto fractal = PrepareCombination(c);
-    if (fractal == nullptr) {
-      continue;
-    }
     const auto welded = fractal->Weld({.max_points = 20});
     ASSERT_FALSE(welded.ok()) << c.name;
     EXPECT_EQ(welded.error().code, ErrorCode::kLimit) << c.name;
@@ -258,24 +217,24 @@ TEST(RegistryTest, WeldStopsAtItsLimit) {
 
 TEST(RegistryTest, BadShapesAreRefused) {
   for (const MethodInfo& method : FractalMethods()) {
-    FractalSettings s = method.defaults;
+    MethodSettings s;
+    s.method = method.name;
+    s.own = method.knobs.defaults();
     s.fineness.epsilon = .1;
     CoarseShape shape = ShapeFor(method);
     shape.rest.pop_back();
-    EXPECT_FALSE(method.prepare(shape, s, nullptr).ok()) << method.name;
+    EXPECT_FALSE(PrepareMethod(shape, s).ok()) << method.name;
     shape = ShapeFor(method);
     shape.curve = !shape.curve;
     shape.triangles.clear();
-    EXPECT_FALSE(method.prepare(shape, s, nullptr).ok()) << method.name;
-    s.split = Split::kAdaptive;
-    EXPECT_FALSE(method.prepare(ShapeFor(method), s, nullptr).ok()) << method.name;
+    EXPECT_FALSE(PrepareMethod(shape, s).ok()) << method.name;
   }
 }
 
 // Collapsed shapes end cleanly and stay finite.
 TEST(RegistryTest, C16a_CollapsedShapesEndCleanly) {
+  size_t streamed = 0;
   for (const Combination& base : AllCombinations()) {
-    const AdaptiveView view = TestView();
     for (const bool rest_too : {false, true}) {
       CoarseShape shape = ShapeFor(*base.method);
       for (size_t i = 0; i < shape.now.size(); ++i) {
@@ -284,10 +243,8 @@ TEST(RegistryTest, C16a_CollapsedShapesEndCleanly) {
           shape.rest[i] = Vec3(3, 3, 0);
         }
       }
-      auto prepared = base.method->prepare(shape, base.settings, &view);
-      if (!prepared.ok()) {
-        continue;
-      }
+      auto prepared = PrepareMethod(shape, base.settings);
+      ASSERT_TRUE(prepared.ok()) << base.name << ": " << prepared.error().message;
       CollectSink sink;
       for (size_t root = 0; root < (*prepared)->RootCount(); ++root) {
         (*prepared)->Stream(root, sink, 512);
@@ -295,8 +252,11 @@ TEST(RegistryTest, C16a_CollapsedShapesEndCleanly) {
       for (const Vec3& p : sink.points) {
         ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) << base.name;
       }
+      ASSERT_FALSE(sink.points.empty()) << base.name;
+      ++streamed;
     }
   }
+  EXPECT_EQ(streamed, 2 * AllCombinations().size());
 }
 
 }  // namespace

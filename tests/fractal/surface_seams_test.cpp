@@ -111,14 +111,13 @@ TEST(SurfaceSeamsTest, S4_NoCrackAndNoTJunctionAtAnyFineness) {
 }
 
 TEST(SurfaceSeamsTest, S4_NoCrackWherePixelsOrThisFramesLengthsDecide) {
-  const AdaptiveView view = ViewFromAbove(5, 100);
   for (const Split split : {Split::kShot, Split::kAdaptive, Split::kLength}) {
     for (const double radius : {0., .4}) {
       FractalSettings settings = PixelSettings(4, 100, Vec3(0, 0, 5), radius);
       settings.split = split;
       settings.max_level = 12;
       for (const CoarseShape& shape : {Sphere(), Torus()}) {
-        const std::vector<Leaf> leaves = StreamedLeaves(*Prepare(shape, settings, &view), 50);
+        const std::vector<Leaf> leaves = StreamedLeaves(*Prepare(shape, settings), 50);
         EXPECT_GT(leaves.size(), 500u);
         const Seams seams = SeamsOf(leaves);
         EXPECT_EQ(seams.single, 0u) << static_cast<int>(split);

@@ -89,14 +89,6 @@ inline FractalSettings PixelSettings(double pixels, double focal, const Vec3& ey
   return settings;
 }
 
-// Looks down -z from (0, 0, height).
-inline AdaptiveView ViewFromAbove(double height, double focal) {
-  AdaptiveView view;
-  view.rows = {focal, 0, 0, 0, 0, focal, 0, 0, 0, 0, -1, height};
-  view.near = .01;
-  return view;
-}
-
 // Runs the rest of a scope at one SIMD level.
 class AtSimdLevel {
  public:

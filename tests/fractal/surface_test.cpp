@@ -13,18 +13,16 @@ namespace {
 struct Variety {
   std::string name;
   FractalSettings settings;
-  const AdaptiveView* view;
 };
 
 // Every law, direction, variant and split, with and without coasts.
 std::vector<Variety> Varieties() {
-  static const AdaptiveView kView = ViewFromAbove(6, 60);
   std::vector<Variety> all;
   const MethodInfo& method = *FindFractalMethod("surface");
-  for (const Law law : method.laws) {
-    for (const Direction direction : method.directions) {
-      for (const Variant variant : method.variants) {
-        for (const Split split : method.splits) {
+  for (const Law law : LawsOf(method)) {
+    for (const Direction direction : DirectionsOf(method)) {
+      for (const Variant variant : VariantsOf(method)) {
+        for (const Split split : kSplits) {
           for (const bool coast : {false, true}) {
             FractalSettings settings = PixelSettings(2, 60, Vec3(0, 0, 6), coast ? .5 : 0);
             settings.law = law;
@@ -37,7 +35,7 @@ std::vector<Variety> Varieties() {
             all.push_back({std::string(LawName(law)) + ' ' + std::string(DirectionName(direction)) +
                                ' ' + std::string(VariantName(variant)) + ' ' +
                                std::string(SplitName(split)) + (coast ? " coast" : ""),
-                           settings, &kView});
+                           settings});
           }
         }
       }
@@ -48,12 +46,12 @@ std::vector<Variety> Varieties() {
 
 TEST(SurfaceTest, S24_StreamedIsWeldedBitForBitInEveryVarietyAtEverySimdLevel) {
   for (const Variety& one : Varieties()) {
-    const auto prepared = Prepare(Island(), one.settings, one.view);
+    const auto prepared = Prepare(Island(), one.settings);
     const std::vector<Leaf> truth = WeldedLeaves(Weld(*prepared));
     ASSERT_GT(truth.size(), 60u) << one.name;
     for (const std::string& level : SimdLevels()) {
       const AtSimdLevel at(level);
-      const auto again = Prepare(Island(), one.settings, one.view);
+      const auto again = Prepare(Island(), one.settings);
       ASSERT_TRUE(StreamedLeaves(*again, level == "scalar" ? 16 : 2048) == truth)
           << one.name << ' ' << level;
       ASSERT_TRUE(WeldedLeaves(Weld(*again)) == truth) << one.name << ' ' << level;

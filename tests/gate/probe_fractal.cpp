@@ -6,6 +6,7 @@
 #include "engine/base/exact_math.h"
 #include "engine/fractal/registry.h"
 #include "engine/geometry/primitives.h"
+#include "tests/fractal/choices.h"
 #include "tests/gate/probe.h"
 
 namespace fjord::gate {
@@ -15,6 +16,8 @@ namespace {
 class LeafSet : public StreamSink {
  public:
   bool Wants(const Vec3&, const Vec3&, const Vec3&, const StreamReach&) override { return true; }
+
+  bool ReadsPlaces() const override { return true; }
 
   void Take(const StreamBatch& batch) override {
     hashes_.clear();
@@ -26,9 +29,9 @@ class LeafSet : public StreamSink {
         hash = Mix64(hash + std::bit_cast<uint64_t>(x));
       }
       hash = Mix64(hash + std::bit_cast<uint32_t>(v.stretch));
-      if (!batch.colors.empty()) {
-        const Rgb& c = batch.colors[i];
-        for (const float x : {c.r, c.g, c.b}) hash = Mix64(hash + std::bit_cast<uint32_t>(x));
+      const Weights& place = batch.places[i];
+      for (const double x : {place.x, place.y, place.z}) {
+        hash = Mix64(hash + std::bit_cast<uint64_t>(x));
       }
       hashes_.push_back(hash);
     }
@@ -158,27 +161,17 @@ CoarseShape MakeCurve(bool closed) {
   return shape;
 }
 
-// Object space to 640 x 360 pixels, from (3, -2, 2) towards the origin or near it.
-AdaptiveView MakeView() {
-  AdaptiveView view;
-  view.rows = {250, 380, 90, 900, 120, -60, -420, 1300, -.72, .48, -.5, 4.1};
-  view.near = .01;
-  return view;
-}
-
 struct Case {
   const MethodInfo* method;
   const char* shape_name;
   CoarseShape shape;
-  FractalSettings settings;
+  MethodSettings settings;
   std::string name;
 };
 
 void Probe(const Case& c, const Options& options, Report& report) {
   if (!report.Wants(c.name)) return;
-  if (!FindSettingDefects(*c.method, c.settings).empty()) return;  // not offered together
-  const AdaptiveView view = MakeView();
-  const auto prepared = c.method->prepare(c.shape, c.settings, &view);
+  const auto prepared = PrepareMethod(c.shape, c.settings);
   if (!prepared.ok()) {
     report.Fail(c.name, prepared.error().ToString());
     return;
@@ -197,28 +190,19 @@ void Probe(const Case& c, const Options& options, Report& report) {
   report.Item(c.name + "/welded", DigestOf(welded.value()));
 }
 
-void ProbeSettings(Case c, const Options& options, Report& report) {
+// Everything that the method's table offers, with every split.
+void ProbeSettings(Case c, bool coast, const Options& options, Report& report) {
   const std::string base = "fractal/" + std::string(c.method->name) + '/' + c.shape_name;
-  for (const Law law : c.method->laws) {
-    for (const Direction direction : c.method->directions) {
-      for (const Variant variant : c.method->variants) {
-        for (const Split split : c.method->splits) {
-          c.settings.law = law;
-          c.settings.direction = direction;
-          c.settings.variant = variant;
-          c.settings.split = split;
-          c.name = base + '/' + std::string(LawName(law)) + '/' +
-                   std::string(DirectionName(direction)) + '/' + std::string(VariantName(variant)) +
-                   '/' + std::string(SplitName(split));
-          Probe(c, options, report);
-          if (c.method->additions) {
-            c.settings.increments = Increments::kAdditions;
-            c.name += "/ADDITIONS";
-            Probe(c, options, report);
-            c.settings.increments = Increments::kMidpoint;
-          }
-        }
-      }
+  for (const test::Choice& choice : test::AllChoices(*c.method)) {
+    for (const Split split : test::kSplits) {
+      c.settings.own = choice.own;
+      c.settings.split = split;
+      test::SetKnob(*c.method, "uniforms", {.wholes = {c.method->name == "coast" ? 12u : 4u}},
+                    &c.settings.own);
+      test::SetKnob(*c.method, "coast", {.wholes = {coast ? 1u : 0u}}, &c.settings.own);
+      c.name = base + (choice.name.empty() ? "" : "/") + choice.name + '/' +
+               std::string(SplitName(split));
+      Probe(c, options, report);
     }
   }
 }
@@ -230,17 +214,16 @@ void ProbeFractals(const Options& options, Report& report) {
   for (const MethodInfo& method : FractalMethods()) {
     Case c;
     c.method = &method;
-    c.settings = method.defaults;
+    c.settings.method = method.name;
     c.settings.seed = 1989;
     c.settings.max_level = 5;
-    c.settings.uniforms = method.name == "coast" ? 12 : 4;
     Fineness& fineness = c.settings.fineness;
     if (method.takes == Takes::kCurve) {
       fineness.epsilon = .05;
       for (const bool closed : {false, true}) {
         c.shape_name = closed ? "closed" : "open";
         c.shape = MakeCurve(closed);
-        ProbeSettings(c, options, report);
+        ProbeSettings(c, false, options, report);
       }
       continue;
     }
@@ -253,9 +236,8 @@ void ProbeFractals(const Options& options, Report& report) {
     for (const bool solid : {false, true}) {
       if (solid && method.name == "coast") continue;  // a solid has no border
       c.shape_name = solid ? "solid" : "sheet";
-      c.settings.coast = !solid && method.name == "surface";
       c.shape = MakeTriangles(solid, options.shuffle);
-      ProbeSettings(c, options, report);
+      ProbeSettings(c, !solid, options, report);
     }
   }
 }

@@ -3,10 +3,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <bit>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "engine/base/random.h"
 #include "gtest/gtest.h"
@@ -45,6 +47,46 @@ TEST(CodecTest, WhatIsWrittenIsRead) {
       }
     }
   }
+}
+
+TEST(CodecTest, LayersAreWrittenBesideTheColoursAndTheirDigestsJoined) {
+  for (const PixelFormat format : {PixelFormat::kExrHalf, PixelFormat::kExrFloat}) {
+    Picture picture = Noise(37, 23, format);
+    const Digest color = PixelDigest(picture);
+    PictureLayer depth{"depth", {}};
+    for (size_t i = 0; i < 37 * 23; ++i) depth.samples.push_back(static_cast<float>(i) * .37f);
+    depth.samples[5] = std::numeric_limits<float>::infinity();
+    picture.layers.push_back(depth);
+    const Result<std::string> bytes = EncodePicture(picture, {});
+    ASSERT_TRUE(bytes.ok()) << bytes.error().message;
+    const Result<Picture> back = DecodePicture(*bytes, "test");
+    ASSERT_TRUE(back.ok()) << back.error().message;
+    EXPECT_EQ(back->format, format);
+    EXPECT_EQ(back->bytes, picture.bytes);
+    ASSERT_EQ(back->layers.size(), 1u);
+    EXPECT_EQ(back->layers[0].name, "depth");
+    EXPECT_EQ(back->layers[0].samples, depth.samples);
+    EXPECT_EQ(PixelDigest(*back), PixelDigest(picture));
+
+    // One digest each, in name order, digested again.
+    Sha256 of_depth;
+    of_depth.Update("fjord-pixels 1 37 23 1 float\n");
+    for (const float sample : depth.samples) {
+      const auto bits = std::bit_cast<uint32_t>(sample);
+      for (const int shift : {24, 16, 8, 0}) {
+        const auto byte = static_cast<uint8_t>(bits >> shift);
+        of_depth.Update(std::span<const uint8_t>(&byte, 1));
+      }
+    }
+    Sha256 joined;
+    joined.Update(color.bytes);
+    joined.Update(of_depth.Finish().bytes);
+    EXPECT_EQ(PixelDigest(picture), joined.Finish());
+    EXPECT_NE(PixelDigest(picture), color);
+  }
+  Picture png = Noise(3, 2, PixelFormat::kPng8);
+  png.layers.push_back({"depth", std::vector<float>(6, 1.f)});
+  EXPECT_FALSE(EncodePicture(png, {}).ok());
 }
 
 TEST(CodecTest, EqualPicturesGiveEqualFilesWithoutDatesOrNames) {

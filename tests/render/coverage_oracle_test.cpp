@@ -183,12 +183,8 @@ v1::FrameScene Crossing(bool orthographic, uint32_t samples) {
     v1::FrameObject* line = AddObject(&scene, way, {}, {1, 1, blue *= .5f});
     line->set_curve(true);
     line->mutable_material()->set_line_width(width);
-    v1::FrameFractal* fractal = MakeRough(line, .05, 1, .75);
-    fractal->set_method("curve");
+    v1::FrameFractal* fractal = MakeRoughLine(line, .05);
     fractal->set_seed(static_cast<uint64_t>(width));
-    fractal->set_law(2);
-    fractal->set_direction(1);
-    fractal->set_variant(2);
   }
   return scene;
 }

@@ -83,11 +83,9 @@ std::vector<Vec3> Lake(double size) {
 }
 
 v1::FrameFractal* MakeShore(v1::FrameObject* object, double epsilon) {
-  v1::FrameFractal* fractal = MakeRough(object, epsilon, 1, .75);
+  v1::FrameFractal* fractal = MakeRough(object, epsilon);
   fractal->set_method("curve");
-  fractal->set_law(2);
-  fractal->set_direction(1);
-  fractal->set_variant(2);
+  SetWords(fractal, {{"direction", "EDGE"}, {"variant", "CURRENT"}});
   return fractal;
 }
 
@@ -101,7 +99,9 @@ TEST(FillTest, OrthographicOutlinesHaveNoNearPlane) {
     Put(camera->mutable_up(), {up.x, up.y, up.z});
     camera->set_view_height(9);
     camera->set_near(.01);
-    AddObject(&scene, Lake(3.5), {}, kRed);
+    v1::FrameObject* lake = AddObject(&scene, Lake(3.5), {}, kRed);
+    EXPECT_GT(CheckFill(scene), 500);
+    MakeShore(lake, .1);
     EXPECT_GT(CheckFill(scene), 500);
   }
 }

@@ -1,7 +1,9 @@
 // What is hidden is not made, and nothing else is left out (S7).
+#include <algorithm>
 #include <random>
 
 #include "engine/render/screen_bound.h"
+#include "engine/render/tile_buffer.h"
 #include "tests/render/scenes.h"
 
 namespace fjord {
@@ -85,6 +87,20 @@ TEST(HidingTest, S7_WideStrokesShowBesideWhatHidesTheirLine) {
     const Rgb wanted = plate ? Rgb(0, 1, 0) : stroke ? Rgb(1, 0, 0) : Rgb(0);
     ASSERT_EQ(At(picture, x, 32), wanted) << "pixel " << x;
   }
+}
+
+// Of what lies outside a tile nothing is known.
+TEST(HidingTest, NothingIsHiddenOutsideTheTile) {
+  TileBuffer tile;
+  tile.Reset({32, 16, 16, 16}, 4, nullptr);
+  std::fill_n(tile.depth(), 16 * 16 * 4, 1.);
+  EXPECT_TRUE(tile.Hides(30, 10, 50, 40, .5));
+  EXPECT_TRUE(tile.Hides(47, 31, 90, 90, .5));
+  EXPECT_FALSE(tile.Hides(30, 10, 50, 40, 1.));
+  EXPECT_FALSE(tile.Hides(10, 20, 31, 24, .5)) << "left";
+  EXPECT_FALSE(tile.Hides(48, 20, 60, 24, .5)) << "right";
+  EXPECT_FALSE(tile.Hides(40, 0, 44, 15, .5)) << "above";
+  EXPECT_FALSE(tile.Hides(40, 32, 44, 40, .5)) << "below";
 }
 
 // Tiles far from a short stroke work with its corners too.

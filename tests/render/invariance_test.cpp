@@ -1,13 +1,20 @@
 // One picture for every way of making it (D3, D4).
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cfenv>
+#include <cstdio>
+#include <cstring>
 #include <optional>
 #include <thread>
 
 #include "engine/animation/inbetween.h"
 #include "engine/base/simd.h"
 #include "engine/geometry/primitives.h"
+#include "engine/image/dither.h"
 #include "engine/scene/load.h"
 #include "tests/render/plain_oracle.h"
 #include "tests/render/scenes.h"
@@ -91,6 +98,32 @@ TEST(InvarianceTest, S24_TheOrderOfTrianglesIsIrrelevant) {
   EXPECT_EQ(DigestOf(scene), wanted);
 }
 
+// A dithered picture is the 16-bit one with its offsets, and knows no tile.
+TEST(InvarianceTest, D4_DitherKnowsNoTile) {
+  v1::FrameScene scene = Mixed();
+  scene.mutable_output()->set_format(1);
+  const Picture fine = Draw(scene);
+  scene.mutable_output()->set_format(0);
+  scene.mutable_output()->set_dither(1);
+  const Picture coarse = Draw(scene);
+  for (uint32_t i = 0; i < coarse.bytes.size(); ++i) {
+    uint16_t code = 0;
+    std::memcpy(&code, &fine.bytes[2 * i], 2);
+    const uint32_t offset = DitherOffset(i / 3 % coarse.width, i / 3 / coarse.width, i % 3);
+    ASSERT_EQ(coarse.bytes[i], (code + offset) / 257) << i;
+  }
+  for (const int tile : {16, 48}) {
+    EXPECT_EQ(DigestOf(scene, {.threads = 2, .tile_size = tile}), PixelDigest(coarse).Hex());
+  }
+  const Result<RenderedFrame> part = RenderTile(scene, 37, 20, 64, 64, {.threads = 1});
+  ASSERT_TRUE(part.ok());
+  for (size_t y = 0; y < 64; ++y) {
+    EXPECT_EQ(
+        std::memcmp(&part->picture.bytes[y * 192], &coarse.bytes[((20 + y) * 150 + 37) * 3], 192),
+        0);
+  }
+}
+
 TEST(InvarianceTest, ATileIsThatPartOfTheFrame) {
   const v1::FrameScene scene = Mixed();
   const Picture whole = Draw(scene);
@@ -118,6 +151,8 @@ TEST(InvarianceTest, S7_CullingLosesNothing) {
   EXPECT_GT(a.stats.culled, 0u);
 }
 
+constexpr double kMostAlone = 1.5;
+
 TEST(InvarianceTest, OneTileAloneCostsLittleMoreThanItsShare) {
   v1::FrameScene scene = Mixed();
   scene.mutable_output()->set_width(512);
@@ -135,20 +170,40 @@ TEST(InvarianceTest, OneTileAloneCostsLittleMoreThanItsShare) {
   }
   const auto whole = RenderRegion(*built, {0, 0, 512, 320}, {.threads = 1});
   ASSERT_TRUE(whole.ok());
-  EXPECT_LT(static_cast<double>(alone), 2.5 * static_cast<double>(whole->stats.triangles));
+  // docs/performance.md has 1.08 for the demo; here roots are few and tiles cut more of them
+  const double share = static_cast<double>(alone) / static_cast<double>(whole->stats.triangles);
+  std::printf("tiles alone: %.3f times the frame at once\n", share);
+  EXPECT_LT(share, kMostAlone);
+  EXPECT_GT(share, .9) << "tiles alone must make all that the frame makes";
 }
 
-TEST(InvarianceTest, MemoryFollowsTheTileNotTheTriangles) {
-  const auto peak = [](double epsilon) {
+// Peak of a process of its own that renders, as the system counts it; 0 where it failed. `epsilon`
+// 0: it renders nothing.
+double PeakOfRendering(double epsilon) {
+  const pid_t child = fork();
+  if (child == 0) {
+    if (epsilon == 0) _exit(0);
     v1::FrameScene scene = Mixed();
     scene.mutable_object(0)->mutable_fractal()->mutable_fineness()->set_epsilon(epsilon);
     const auto rendered = RenderFrame(scene, {.threads = 1, .tile_size = 64});
-    EXPECT_TRUE(rendered.ok());
-    return static_cast<double>(rendered->stats.peak_bytes);
-  };
-  const double coarse = peak(.016), fine = peak(.004);
-  EXPECT_LT(fine, 1.1 * coarse);
-  EXPECT_LT(fine, 40e6);
+    const bool good = rendered.ok() && rendered->stats.triangles > 1 / (epsilon * epsilon);
+    _exit(good ? 0 : 1);
+  }
+  int status = 1;
+  rusage used{};
+  if (child < 0 || wait4(child, &status, 0, &used) != child || status != 0) return 0;
+  return static_cast<double>(used.ru_maxrss) * 1024;
+}
+
+TEST(InvarianceTest, MemoryFollowsTheTileNotTheTriangles) {
+  const double nothing = PeakOfRendering(0);
+  const double coarse = PeakOfRendering(.016), fine = PeakOfRendering(.004);
+  ASSERT_GT(nothing, 0);
+  ASSERT_GT(coarse, 0);
+  ASSERT_GT(fine, 0);
+  EXPECT_GT(coarse, nothing);
+  EXPECT_LT(fine - nothing, 1.1 * (coarse - nothing) + 1e6);
+  EXPECT_LT(fine - nothing, 40e6);
 }
 
 // Whatever a thread's last guest did, the engine rounds to nearest.
@@ -177,7 +232,7 @@ TEST(InvarianceTest, D1_EveryEntrySetsTheFloatEnvironment) {
   const v1::FrameScene frame = Mixed();
   std::optional<BuiltFrame> built;
   check("BuildFrame", [&] { built = *BuildFrame(frame, nullptr); });
-  check("PrepareObject", [&] { EXPECT_TRUE(PrepareObject(*built, built->objects[0], 8).ok()); });
+  check("PrepareObject", [&] { EXPECT_TRUE(PrepareObject(built->objects[0], 8).ok()); });
   check("RenderRegion", [&] {
     EXPECT_TRUE(RenderRegion(*built, {0, 0, 16, 16}, {.threads = 1}).ok());
   });
@@ -225,6 +280,9 @@ TEST(InvarianceTest, AbsurdScenesAreErrors) {
   EXPECT_EQ(code(scene), ErrorCode::kLimit);
   scene = FlatScene(10, 10);
   scene.mutable_output()->set_samples(3);
+  EXPECT_EQ(code(scene), ErrorCode::kInvalid);
+  scene = FlatScene(10, 10);
+  scene.mutable_output()->set_dither(7);
   EXPECT_EQ(code(scene), ErrorCode::kInvalid);
   scene = FlatScene(10, 10);
   scene.mutable_output()->set_format(9);

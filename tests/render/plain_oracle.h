@@ -17,6 +17,7 @@ class Unculled final : public PreparedFractal {
  public:
   explicit Unculled(std::shared_ptr<const PreparedFractal> inner) : inner_(std::move(inner)) {}
   size_t RootCount() const override { return inner_->RootCount(); }
+  Triangle Corners(uint32_t element) const override { return inner_->Corners(element); }
   Ball Bound(size_t) const override { return {Vec3(0), 1e6}; }
   StreamStats Stream(size_t root, StreamSink& sink, size_t patch) const override {
     class All final : public StreamSink {
@@ -26,6 +27,7 @@ class Unculled final : public PreparedFractal {
         return true;
       }
       void Take(const StreamBatch& batch) override { sink_->Take(batch); }
+      bool ReadsPlaces() const override { return sink_->ReadsPlaces(); }
 
      private:
       StreamSink* sink_;

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <initializer_list>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "engine/base/exact_math.h"
@@ -91,25 +93,41 @@ inline void AddSun(v1::FrameScene* scene, const Vec3& towards, const Rgb& color)
   Put(light->mutable_color(), {color.r, color.g, color.b});
 }
 
+// Choices of the object's method, in place of all values that it had.
+inline void SetWords(v1::FrameFractal* fractal,
+                     std::initializer_list<std::pair<const char*, const char*>> words) {
+  fractal->clear_parameter();
+  for (const auto& [name, word] : words) {
+    v1::Parameter* parameter = fractal->add_parameter();
+    parameter->set_name(name);
+    parameter->add_text(word);
+  }
+}
+
 inline v1::FrameFractal* MakeRough(v1::FrameObject* object, double epsilon, double amplitude = .2,
                                    double h = .7) {
   v1::FrameFractal* fractal = object->mutable_fractal();
   fractal->set_method("surface");
   fractal->set_seed(7);
-  fractal->set_h(h);
-  fractal->set_sigma(1);
-  fractal->set_amplitude(amplitude);
-  fractal->set_law(1);
-  fractal->set_direction(3);
-  fractal->set_variant(1);
+  // as the tables give them: sorted, and what is at its default left out
+  for (const auto& [name, value, otherwise] :
+       {std::tuple("H", h, .7), std::tuple("amplitude", amplitude, .15)}) {
+    if (value == otherwise) continue;
+    v1::Parameter* parameter = fractal->add_parameter();
+    parameter->set_name(name);
+    parameter->add_number(value);
+  }
   fractal->set_split(1);
   fractal->set_max_level(24);
-  fractal->set_uniforms(4);
-  fractal->set_move(.4);
-  fractal->set_perturb(1);
-  fractal->set_stretch(true);
-  fractal->set_coast_h(.75);
   fractal->mutable_fineness()->set_epsilon(epsilon);
+  return fractal;
+}
+
+// A curve with offsets square to its segments.
+inline v1::FrameFractal* MakeRoughLine(v1::FrameObject* line, double epsilon) {
+  v1::FrameFractal* fractal = MakeRough(line, epsilon);
+  fractal->set_method("curve");
+  SetWords(fractal, {{"direction", "EDGE"}, {"variant", "CURRENT"}});
   return fractal;
 }
 

@@ -78,11 +78,7 @@ void AddRandomCurve(v1::FrameScene* scene) {
     line->mutable_material()->set_fill(true);
   }
   if (*rc::gen::arbitrary<bool>()) {
-    v1::FrameFractal* fractal = MakeRough(line, OneOf({.2, .05, .02}), 1, .75);
-    fractal->set_method("curve");
-    fractal->set_law(2);
-    fractal->set_direction(1);
-    fractal->set_variant(2);
+    MakeRoughLine(line, OneOf({.2, .05, .02}));
   }
 }
 

@@ -1,10 +1,11 @@
 #include "engine/scene/defaults.h"
 
-#include <google/protobuf/text_format.h>
 #include <gtest/gtest.h>
 
 #include "engine/scene/load.h"
 #include "engine/scene/transform.h"
+#include "engine/scene/write_json.h"
+#include "tests/scene/entry_values.h"
 #include "tests/scene/load_text.h"
 
 namespace fjord {
@@ -59,8 +60,7 @@ TEST(DefaultsTest, C36_WritingTheDefaultsOutChangesNothing) {
             "track { path: \"camera.eye.z\" key { frame: 1 value: 3 } key { frame: 9 value: 5 } "
             "}"}) {
     const v1::Scene implicit = Loaded(text);
-    std::string written;
-    google::protobuf::TextFormat::PrintToString(implicit, &written);
+    const std::string written = SceneJson(implicit);
     const v1::Scene explicit_scene = Loaded(written);
     EXPECT_EQ(SerializeScene(implicit), SerializeScene(explicit_scene)) << written;
   }
@@ -72,14 +72,34 @@ TEST(DefaultsTest, C35_EveryFieldHasAValueOrAMeaningWhenAbsent) {
   EXPECT_EQ(scene.output().height(), 540u);
   EXPECT_EQ(scene.output().frames(), 1u);
   EXPECT_EQ(scene.output().samples(), 4u);
+  EXPECT_TRUE(scene.output().dither());
   EXPECT_EQ(scene.lights(0).name(), "sun");
   EXPECT_FALSE(scene.has_sea());
   const v1::Fractal& fractal = scene.objects(0).fractal();
   EXPECT_EQ(fractal.method(), "surface");
   EXPECT_EQ(fractal.pixels(), 1);
   EXPECT_EQ(fractal.split(), v1::Fractal::SHOT);
-  EXPECT_NE(fractal.law(), v1::Fractal::LAW_DEFAULT);
-  EXPECT_TRUE(fractal.has_h() && fractal.has_seed() && fractal.has_max_level());
+  EXPECT_EQ(testing::ValueIn(fractal, "law"), "AFFINE");
+  EXPECT_EQ(testing::ValueIn(fractal, "H"), "0.7");
+  EXPECT_EQ(testing::ValueIn(fractal, "perturb"), "");  // has no effect with FIXED
+  EXPECT_TRUE(fractal.has_seed() && fractal.has_max_level());
+}
+
+// `color {}` is given: black, not the default.
+TEST(DefaultsTest, AnEmptyColourIsBlack) {
+  const v1::Scene scene = Loaded(
+      "background { top {} bottom {} } sea { color {} } lights { direction { z: 1 } color {} }\n"
+      "objects { shape { primitive { kind: SPHERE } } material { color {} } }\n"
+      "objects { shape { primitive { kind: SPHERE } } material { color { g: .5 } } }");
+  for (const v1::Color* color :
+       {&scene.background().top(), &scene.background().bottom(), &scene.sea().color(),
+        &scene.lights(0).color(), &scene.objects(0).material().color()}) {
+    EXPECT_EQ(color->r() + color->g() + color->b(), 0);
+    EXPECT_TRUE(color->has_r() && color->has_g() && color->has_b());
+  }
+  EXPECT_EQ(scene.objects(1).material().color().r(), 0);
+  EXPECT_EQ(scene.objects(1).material().color().g(), .5);
+  EXPECT_GT(scene.ambient().r(), 0);
 }
 
 TEST(DefaultsTest, MethodByShape) {

@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "engine/scene/route.h"
+#include "tests/scene/entry_values.h"
 
 namespace fjord {
 namespace {
@@ -101,10 +102,10 @@ TEST(RouteTest, SetsEveryKindOfField) {
   EXPECT_TRUE(set("camera.eye", "1, 2 3"));
   EXPECT_TRUE(set("camera.up", "z: 1"));
   EXPECT_TRUE(set("objects[coast].shape.mesh.point[1].x", "5"));
-  EXPECT_EQ(scene.objects(1).fractal().h(), .25);
+  EXPECT_EQ(testing::ValueIn(scene.objects(1).fractal(), "H"), "0.25");
   EXPECT_EQ(scene.objects(1).fractal().seed(), UINT64_MAX);
-  EXPECT_EQ(scene.objects(1).fractal().law(), v1::Fractal::SIMILAR);
-  EXPECT_TRUE(scene.objects(1).fractal().has_stretch());
+  EXPECT_EQ(testing::ValueIn(scene.objects(1).fractal(), "law"), "SIMILAR");
+  EXPECT_EQ(testing::ValueIn(scene.objects(1).fractal(), "stretch"), "false");
   EXPECT_EQ(scene.output().width(), 12u);
   EXPECT_EQ(scene.name(), "other");
   EXPECT_EQ(scene.camera().eye().y(), 2);

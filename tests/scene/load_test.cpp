@@ -8,6 +8,7 @@
 
 #include "engine/base/digest.h"
 #include "engine/scene/limits.h"
+#include "tests/scene/entry_values.h"
 #include "tests/scene/load_text.h"
 
 namespace fjord {
@@ -31,10 +32,10 @@ TEST(LoadTest, AWholeSceneLoads) {
 
 TEST(LoadTest, SyntaxErrorsHaveLineAndColumn) {
   EXPECT_EQ(ErrorsOf("objects {\n  name: ball\n}"),
-            "s.scene:2:9: error: Expected string, got: ball\n");
+            "s.scene:2:3: error: name wants a text in quotes, not ball\n");
   EXPECT_THAT(ErrorsOf("objects { shape {"), StartsWith("s.scene:1:18: error: "));
   EXPECT_EQ(ErrorsOf("name: \"a\"\nname: \"b\""),
-            "s.scene:2:5: error: field name is given twice\n");
+            "s.scene:2:1: error: field name is given twice\n");
 }
 
 TEST(LoadTest, UnknownFieldsAreAllReportedWithTheNearest) {
@@ -42,7 +43,7 @@ TEST(LoadTest, UnknownFieldsAreAllReportedWithTheNearest) {
             "s.scene:1:1: error: Scene has no field \"objetcs\"; did you mean objects?\n"
             "s.scene:3:19: error: Fractal has no field \"sigam\"; did you mean sigma?\n");
   EXPECT_EQ(ErrorsOf("objects { shape { primitive { kind: SPHER } } }"),
-            "s.scene:1:37: error: kind cannot be SPHER; did you mean SPHERE?\n");
+            "s.scene:1:31: error: kind cannot be SPHER; did you mean SPHERE?\n");
 }
 
 TEST(LoadTest, BadNumbersAreAllReportedAtTheirPlaces) {
@@ -63,16 +64,16 @@ TEST(LoadTest, FractalKnobsOutOfRangeOrUnknownToTheMethod) {
   EXPECT_EQ(ErrorsOf("objects { name: \"a\" " + kTriangle +
                      " fractal { H: 1.2 max_level: 1000 epsilon: 0 } }"),
             "s.scene:2:12: error: objects[a].fractal.H: 1.2; coast takes 0 to 1\n"
-            "s.scene:2:19: error: objects[a].fractal.max_level: 1000; coast takes 0 to 40\n"
+            "s.scene:2:19: error: objects[a].fractal.max_level: 1000 is out of range: 0 to 40\n"
             "s.scene:2:35: error: objects[a].fractal.epsilon: 0 is out of range: above 0\n");
   EXPECT_EQ(
       ErrorsOf("objects { name: \"a\" " + kTriangle + " fractal { H: 1.2 max_level: 1000 } }"),
       "s.scene:2:12: error: objects[a].fractal.H: 1.2; coast takes 0 to 1\n"
-      "s.scene:2:19: error: objects[a].fractal.max_level: 1000; coast takes 0 to 40\n");
+      "s.scene:2:19: error: objects[a].fractal.max_level: 1000 is out of range: 0 to 40\n");
   EXPECT_EQ(
       ErrorsOf("objects { name: \"a\" " + kTriangle + " fractal { coast_H: .5 } }"),
       "s.scene:2:12: error: objects[a].fractal.coast_H: method coast has no such knob; it has "
-      "H, sigma, amplitude, move, perturb\n");
+      "H, sigma, amplitude, law, direction, variant, uniforms, move, perturb, stretch\n");
   EXPECT_EQ(ErrorsOf("objects { name: \"a\" " + kTriangle + " fractal { method: \"curv\" } }"),
             "s.scene:2:12: error: objects[a].fractal.method: there is no method \"curv\"; did you "
             "mean curve?\n");
@@ -130,7 +131,7 @@ TEST(LoadTest, DefectsOfAllKindsComeInOneRun) {
           {{"camera.fov", "900"}, {"nonsense", "1"}}),
       "--set camera.fov=900: error: camera.fov: 900 is out of range: 1 to 170\n"
       "--set nonsense=1: error: a scene has no field \"nonsense\"; there are name, output, camera, "
-      "background, ambient, lights, sea, objects, track\n"
+      "background, ambient, lights, sea, objects, track, haze\n"
       "s.scene:1:10: error: output.width: 0 is out of range: 1 to 16384\n"
       "s.scene:1:19: error: output.samples: 3 is not 1, 4 or 16\n"
       "s.scene:2:16: error: camera.eye.x: not a finite number\n"
@@ -138,14 +139,14 @@ TEST(LoadTest, DefectsOfAllKindsComeInOneRun) {
       "s.scene:3:22: error: lights[light-1].direction.x: not a finite number\n"
       "s.scene:4:36: error: objects[a].shape.file.path: there is no file none.std\n"
       "s.scene:5:13: error: objects[a].fractal.epsilon: -1 is out of range: above 0\n"
-      "s.scene:5:25: error: objects[a].fractal.max_level: 1000; surface takes 0 to 40\n"
+      "s.scene:5:25: error: objects[a].fractal.max_level: 1000 is out of range: 0 to 40\n"
       "s.scene:5:41: error: objects[a].fractal.H: 7; surface takes 0 to 1\n"
       "s.scene:6:11: error: objects[a].name: object 1 is named \"a\" too\n"
       "s.scene:7:9: error: objects[a].key[1].frame: 2000000 is out of range: 1 to 1000000\n"
       "s.scene:7:56: error: objects[a].key[1].shape.primitive.tube: -1 is out of range: above 0\n"
       "s.scene:8:18: error: objects[a].key[2].shape: segments must be at least 3, not 2\n"
       "s.scene:9:3: error: objects[a].key[3].shape: the shape is empty; give it mesh, polyline, "
-      "primitive or file\n"
+      "primitive, file or heights\n"
       "s.scene:9:9: error: objects[a].key[3].frame: frame 4 comes after frame 5; keys ascend\n"
       "s.scene:11:26: error: objects[c].shape.mesh.point[1].x: not a finite number\n"
       "s.scene:11:44: error: objects[c].shape.mesh.face[1]: 2 corners; a face needs three or more\n"
@@ -235,7 +236,7 @@ TEST(LoadTest, ShapesAreChecked) {
       "s.scene:2:9: error: objects[a].shape.mesh.face[1].v[1]: there is no vertex 2; the mesh "
       "has vertices 1 to 1\n"
       "s.scene:3:2: error: objects[a].shape.mesh.face[2]: 2 corners; a face needs three or more\n"
-      "s.scene:3:2: error: objects[a].shape.mesh.face[2].v[2]: there is no vertex 4294967295; "
+      "s.scene:3:16: error: objects[a].shape.mesh.face[2].v[2]: there is no vertex 4294967295; "
       "the mesh has vertices 1 to 1\n");
   EXPECT_EQ(
       ErrorsOf("objects { name: \"a\" shape { polyline { closed: true point {} point {} } } }"),
@@ -314,14 +315,89 @@ TEST(LoadTest, JsonIsTheSameScene) {
   EXPECT_EQ(SerializeScene(text.loaded.scene), SerializeScene(json.loaded.scene));
 }
 
-TEST(LoadTest, JsonErrorsGoByPath) {
+// Every defect that can be found, each with its line and column.
+TEST(LoadTest, JsonErrorsAreAllReportedWithTheirPlaces) {
   EXPECT_EQ(ErrorsOf("{ \"objects\": [ { \"nam\": 3 } ] }"),
-            "s.scene: error: JSON: (objects[1]) nam: Cannot find field.\n");
+            "s.scene:1:18: error: Object has no field \"nam\"; did you mean name?\n");
+  EXPECT_EQ(ErrorsOf("{ \"output\": { \"widht\": 3, \"height\": \"tall\", \"format\": \"PNG9\" },\n"
+                     "  \"camera\": 3, \"camera\": {},\n"
+                     "  \"objects\": [ { \"shape\": { \"primitive\": { \"kind\": \"SPHERE\" } },\n"
+                     "    \"fractal\": { \"sigam\": 1, \"H\": true, \"law\": \"AFINE\",\n"
+                     "      \"stretch\": 1, \"uniforms\": -4 },\n"
+                     "    \"material\": { \"color\": [1, 2] } } ] }"),
+            "s.scene:1:15: error: Output has no field \"widht\"; did you mean width?\n"
+            "s.scene:1:27: error: height wants a whole number from 0 to 4294967295, not \"tall\"\n"
+            "s.scene:1:45: error: format cannot be PNG9; did you mean PNG8?\n"
+            "s.scene:2:3: error: camera wants a group: camera { ... }, not 3\n"
+            "s.scene:2:16: error: field camera is given twice\n"
+            "s.scene:4:18: error: Fractal has no field \"sigam\"; did you mean sigma?\n"
+            "s.scene:4:30: error: H wants a number, not true\n"
+            "s.scene:4:41: error: law cannot be \"AFINE\"; did you mean AFFINE?\n"
+            "s.scene:5:7: error: stretch wants true or false, not 1\n"
+            "s.scene:5:21: error: uniforms wants a whole number from 0, not -4\n"
+            "s.scene:6:28: error: color has 3 numbers; this gives 2\n");
   EXPECT_EQ(
       ErrorsOf("{ \"objects\": [ { \"name\": \"b\", \"shape\": { \"primitive\": { \"radius\": "
                "\"NaN\" } } } ] }"),
-      "s.scene: error: objects[b].shape.primitive.radius: not a finite number\n");
-  EXPECT_THAT(ErrorsOf("{ \"objects\": [ "), StartsWith("s.scene: error: JSON: "));
+      "s.scene:1:57: error: objects[b].shape.primitive.radius: not a finite number\n");
+  EXPECT_THAT(ErrorsOf("{ \"objects\": [ "), StartsWith("s.scene:1:16: error: JSON: "));
+}
+
+TEST(LoadTest, GeoJsonIsNamed) {
+  EXPECT_EQ(
+      ErrorsOf("{ \"features\": [ { \"type\": \"Feature\" } ],\n"
+               "  \"type\": \"FeatureCollection\" }"),
+      "s.scene:2:11: error: this is GeoJSON (\"type\": \"FeatureCollection\"), not a scene. A "
+      "scene has fields such as objects and camera; shapes are read from the .std, .obj, "
+      ".ply and .svg files that it names: \"shape\": {\"file\": {\"path\": \"a.svg\"}}\n");
+}
+
+// Several defects of the text itself in one run; a wrong value does not hide the rest.
+TEST(LoadTest, TextErrorsAreAllReported) {
+  EXPECT_EQ(ErrorsOf("camera { fov: wide eye: [1, 2] eye { x: 1 } }\n"
+                     "objects { fractal { law: AFINE H: high stretch: 1 uniforms: 2.5 } }\n"
+                     "objects { shape { primitive {} mesh {} } fractal { H { x: 1 } H: .5 } }\n"),
+            "s.scene:1:10: error: fov wants a number, not wide\n"
+            "s.scene:1:25: error: eye has 3 numbers; this gives 2\n"
+            "s.scene:1:32: error: field eye is given twice\n"
+            "s.scene:2:21: error: law cannot be AFINE; did you mean AFFINE?\n"
+            "s.scene:2:32: error: H wants a number, not high\n"
+            "s.scene:2:40: error: stretch wants true or false, not 1\n"
+            "s.scene:2:51: error: uniforms wants a whole number from 0, not 2.5\n"
+            "s.scene:3:32: error: give primitive or mesh, not both\n"
+            "s.scene:3:52: error: H wants a number, not a group { }\n"
+            "s.scene:3:63: error: field H is given twice\n");
+}
+
+TEST(LoadTest, VectorsAndColoursMayBeLists) {
+  const LoadResult groups = Load("camera { eye { x: 1 y: -2 z: 3 } }\n" + kBall);
+  const LoadResult lists = Load("camera { eye: [1, -2, 3] }\n" + kBall);
+  ASSERT_TRUE(lists.ok()) << ErrorsOf(lists);
+  EXPECT_EQ(SerializeScene(lists.loaded.scene), SerializeScene(groups.loaded.scene));
+}
+
+// A knob that changes nothing beside the others is refused, not carried into the key.
+TEST(LoadTest, KnobsWithoutEffectAreRefused) {
+  const auto errors = [](const std::string& fractal, const std::string& more = "") {
+    return ErrorsOf("objects { name: \"a\" " + kTriangle + "fractal { " + fractal + " } }\n" +
+                    more);
+  };
+  EXPECT_EQ(errors("move: .3"),
+            "s.scene:2:11: error: objects[a].fractal.move: has no effect here; it works with law "
+            "SHIH\n");
+  EXPECT_EQ(errors("variant: FIXED perturb: .3"),
+            "s.scene:2:26: error: objects[a].fractal.perturb: has no effect here; it works with "
+            "variant PERTURBED\n");
+  EXPECT_EQ(errors("amplitude: .3"),
+            "s.scene:2:11: error: objects[a].fractal.amplitude: has no effect here; it works with "
+            "law AFFINE\n");
+  EXPECT_EQ(errors("law: AFFINE amplitude: .3"), "");
+  EXPECT_EQ(errors("move: .4"), "");  // its default
+  EXPECT_EQ(errors("", "track { path: \"objects[a].fractal.move\" key { frame: 1 value: 1 } }"),
+            "s.scene:3:9: error: track[1].path: objects[a].fractal.move has no effect here; it "
+            "works with law SHIH\n");
+  EXPECT_EQ(errors("", "track { path: \"objects[a].fractal.H\" key { frame: 1 value: .01 } }"),
+            "s.scene:3:53: error: track[1].key[1].value[1]: 0.01; law SIMILAR takes 0.06 to 1\n");
 }
 
 TEST(LoadTest, WhatIsNoSceneSaysSo) {
@@ -437,7 +513,7 @@ TEST(LoadTest, TheWireFormIsCheckedInFull) {
   EXPECT_EQ(LoadSceneBinary("\xff\xff\xff", "job", none).errors[0].ToString(),
             "job: error: not a scene in binary form");
   v1::Scene scene;
-  scene.add_objects()->mutable_fractal()->set_h(3);
+  testing::SetValue(scene.add_objects()->mutable_fractal(), "H", {.numbers = {3}});
   scene.mutable_objects(0)->mutable_shape()->mutable_primitive();
   EXPECT_THAT(ErrorsOf(LoadSceneBinary(scene.SerializeAsString(), "job", none)),
               HasSubstr("job: error: objects[object-1].fractal.H: 3; surface takes 0 to 1"));

@@ -1,0 +1,36 @@
+// --budget: the leaves of one frame that are made without being asked twice (engine/animation/
+// estimate.h).
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "client/commands/common.h"
+#include "engine/animation/estimate.h"
+
+namespace fjord {
+
+// `fallback`: what --help says is the default.
+void AddBudget(CLI::App* command, std::string* budget, const std::string& fallback = "2e9");
+
+// A number above 0 or `unlimited`; empty: `otherwise`. kUsage.
+Result<double> ParseBudget(const std::string& text, double otherwise);
+
+// Where a scene came from: for telling where a knob stands.
+struct SceneOrigin {
+  std::string file;
+  std::vector<Setting> settings;
+};
+
+// The frame against the budget: an error stands at the knob.
+Result<> CheckFrameBudget(const Animation& animation, const v1::FrameScene& frame,
+                          const AssetResolver* assets, uint32_t number, double budget,
+                          Counted counted, const SceneOrigin& origin);
+
+// The same for some frames of the range: the first, the last and an even choice between. `worst`
+// (may be null): the largest estimate found.
+Result<> CheckBudget(const Animation& animation, const FrameRange& range, double budget,
+                     Counted counted, const SceneOrigin& origin, FrameEstimate* worst = nullptr);
+
+}  // namespace fjord

@@ -1,0 +1,43 @@
+// The registry's entry of the method surface; its kernel is engine/fractal/surface.cpp.
+#include "engine/fractal/surface.h"
+
+#include <utility>
+
+#include "engine/fractal/midpoint_knobs.h"
+
+namespace fjord {
+namespace {
+
+constexpr KnobWord kDirections[] = {
+    {"EDGE", 1, "mean of the two faces' normals"},
+    {"FACE", 2, "the face's own normal; opens gaps, kept to show them"},
+    {"VERTEX", 3, "mean of the ends' normals, kept by the new vertex: no kink"},
+    {"UP", 4, "+z"}};
+
+FractalSettings Defaults() {
+  FractalSettings settings;
+  settings.H = .7;
+  settings.law = Law::kAffine;
+  settings.direction = Direction::kVertex;
+  settings.variant = Variant::kFixed;
+  return settings;
+}
+
+}  // namespace
+
+MethodInfo SurfaceMethod() {
+  return {
+      {.name = "surface",
+       .version = 3,
+       .summary = "triangle meshes roughened by midpoint displacement: terrain, planets, any solid",
+       .knobs = MidpointKnobs({.defaults = Defaults(),
+                               .directions = kDirections,
+                               .similar_reads_sigma = true,
+                               .has_coast = true})},
+      Takes::kTriangles,
+      [](CoarseShape shape, const FractalCommon& common, const std::any& own) {
+        return PrepareSurface(std::move(shape), JoinMidpoint(common, own));
+      }};
+}
+
+}  // namespace fjord

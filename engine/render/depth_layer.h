@@ -1,0 +1,16 @@
+// The depth layer of a picture: how far along the view the nearest sample of each pixel lies.
+#pragma once
+
+#include <span>
+
+#include "engine/render/frame_setup.h"
+#include "engine/render/tile_buffer.h"
+
+namespace fjord {
+
+// `distance` holds a float for each pixel of the tile; infinity where the sky is. `drawn` holds
+// rows of the tile, in its full width; nothing was drawn in the others.
+void MeasureDepth(const FrameSetup& setup, const TileRect& tile, const TileBuffer& drawn,
+                  std::span<float> distance);
+
+}  // namespace fjord

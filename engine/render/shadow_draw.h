@@ -1,0 +1,15 @@
+// Draws the shadow maps of a frame: depth-only tiles seen from each light that has one.
+#pragma once
+
+#include "engine/base/result.h"
+#include "engine/render/frame_renderer.h"
+#include "engine/render/frame_setup.h"
+
+namespace fjord {
+
+// Fills setup->shadows and the lights' places in it. Meshes throw shadows; curves, which are as
+// wide as the picture makes them, do not. Of options: threads, patch_size, cancel. The maps do not
+// depend on them. kLimit where a map would be too large; says what would do.
+Result<> DrawShadows(FrameSetup* setup, const RenderOptions& options);
+
+}  // namespace fjord
