@@ -71,7 +71,7 @@ ShadowMap::ShadowMap(const View& view, std::vector<float> nearness)
   std::vector<float> own(block_count, kNothing);
   for (int32_t y = 0; y < height_; ++y) {
     for (int32_t x = 0; x < width_; ++x) {
-      float& most = own[static_cast<size_t>(y / kBlock * blocks_x_ + x / kBlock)];
+      float& most = own[BlockIndex(x / kBlock, y / kBlock)];
       most =
           std::max(most, nearness_[static_cast<size_t>(y) * view.width + static_cast<size_t>(x)]);
     }
@@ -79,10 +79,10 @@ ShadowMap::ShadowMap(const View& view, std::vector<float> nearness)
   most_.assign(block_count, kNothing);
   for (int32_t y = 0; y < blocks_y_; ++y) {
     for (int32_t x = 0; x < blocks_x_; ++x) {
-      float& most = most_[static_cast<size_t>(y * blocks_x_ + x)];
+      float& most = most_[BlockIndex(x, y)];
       for (int32_t j = std::max(y - 1, 0); j <= std::min(y + 1, blocks_y_ - 1); ++j) {
         for (int32_t i = std::max(x - 1, 0); i <= std::min(x + 1, blocks_x_ - 1); ++i) {
-          most = std::max(most, own[static_cast<size_t>(j * blocks_x_ + i)]);
+          most = std::max(most, own[BlockIndex(i, j)]);
         }
       }
     }
@@ -91,8 +91,7 @@ ShadowMap::ShadowMap(const View& view, std::vector<float> nearness)
 
 // Is nothing round texel (x, y) nearer to the light than `least`?
 bool ShadowMap::IsFree(int32_t x, int32_t y, float least) const {
-  return most_[static_cast<size_t>(y / kBlock) * static_cast<size_t>(blocks_x_) +
-               static_cast<size_t>(x / kBlock)] <= least;
+  return most_[BlockIndex(x / kBlock, y / kBlock)] <= least;
 }
 
 float ShadowMap::Share(const Vec3& point, const Vec3& normal) const {

@@ -46,6 +46,10 @@ class ShadowMap {
   Vec3 to_light_;
   int32_t width_, height_;
   std::vector<float> nearness_;
+  size_t BlockIndex(int32_t x, int32_t y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(blocks_x_) + static_cast<size_t>(x);
+  }
+
   int32_t blocks_x_, blocks_y_;
   std::vector<float> most_;  // of a block and those round it
 };
