@@ -50,7 +50,7 @@ green_key() {
   tools=$(for tool in g++ clang++ aarch64-linux-gnu-g++ qemu-aarch64-static; do
     "$tool" --version 2>/dev/null | head -n 1 || true
   done
-  dpkg-query -W libprotobuf-dev libhwy-dev libtbb-dev libglm-dev libssl-dev 2>/dev/null || true)
+  dpkg-query -W libprotobuf-dev libhwy-dev libtbb-dev libglm-dev libssl-dev nlohmann-json3-dev 2>/dev/null || true)
   [[ -z $probe ]] || tools+=$("$probe" --levels)$(sha256sum <"$probe")
   python3 "$here/green.py" key gate "$form" "$native" "$cross" "$only" "$tools" -- \
     "$root/CMakeLists.txt" "$root/cmake" "$root/engine" "$root/proto" "$root/tests/CMakeLists.txt" \
@@ -121,7 +121,8 @@ sysroot() {
     -o APT::Sandbox::User= -o Acquire::Languages=none -o Debug::NoLocking=1)
   if ! { apt-get "${options[@]}" update &&
     (cd "$apt/debs" && apt-get "${options[@]}" download libprotobuf-dev libprotobuf32 zlib1g zlib1g-dev \
-      libssl-dev libssl3 libtbb-dev libtbb12 libtbbmalloc2 libtbbbind-2-5 libhwy-dev libhwy1 libglm-dev); } >"$apt/log" 2>&1; then
+      libssl-dev libssl3 libtbb-dev libtbb12 libtbbmalloc2 libtbbbind-2-5 libhwy-dev libhwy1 libglm-dev
+      nlohmann-json3-dev); } >"$apt/log" 2>&1; then
     tail -n 5 "$apt/log" >&2
     say "gate: Debian's $arch libraries cannot be fetched; all of it is in $apt/log"
     return 1
