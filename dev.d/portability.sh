@@ -121,7 +121,7 @@ sysroot() {
     -o APT::Sandbox::User= -o Acquire::Languages=none -o Debug::NoLocking=1)
   if ! { apt-get "${options[@]}" update &&
     (cd "$apt/debs" && apt-get "${options[@]}" download libprotobuf-dev libprotobuf32 zlib1g zlib1g-dev \
-      libssl-dev libssl3 libtbb-dev libtbb12 libtbbmalloc2 libtbbbind-2-5 libhwy-dev libhwy1 libglm-dev
+      libssl-dev libssl3 libtbb-dev libtbb12 libtbbmalloc2 libtbbbind-2-5 libhwy-dev libhwy1 libglm-dev \
       nlohmann-json3-dev); } >"$apt/log" 2>&1; then
     tail -n 5 "$apt/log" >&2
     say "gate: Debian's $arch libraries cannot be fetched; all of it is in $apt/log"
