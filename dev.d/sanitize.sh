@@ -38,7 +38,7 @@ short_targets() {
 short_tests() {
   case $1 in
     asan) echo '^(base|geometry|formats|fractal_curve|fractal_coast|render|animation|farm)\.' ;;
-    tsan) echo '^(base\.Parallel|render\..*(Invarian|Threads|Cache)|farm\.)' ;;
+    tsan) echo '^(base\.Parallel|render\..*(Invarian|Threads|Cache)|farm\.(Retry|Held|Worker|ChildRenderer))' ;;
   esac
 }
 # What is about files, compilers or speed, and not about memory or threads.
