@@ -21,7 +21,8 @@ function(fjord_test name)
   endif()
   add_executable(fjord_${name}_test ${ARG_SOURCES})
   target_link_libraries(fjord_${name}_test PRIVATE ${ARG_DEPS} fjord::testing GTest::gmock GTest::gtest_main)
-  target_compile_options(fjord_${name}_test PRIVATE ${FJORD_WARNINGS})
+  # Optimising the tests themselves is two thirds of their compile time; what they call is optimised.
+  target_compile_options(fjord_${name}_test PRIVATE ${FJORD_WARNINGS} $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(fjord_${name}_test PRIVATE FJORD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gtest_discover_tests(fjord_${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT ${ARG_TIMEOUT})

@@ -1,10 +1,12 @@
-// Wavefront .obj: v (with w and colours after it), f in all its forms, l, negative indices, lines
-// continued with a backslash. Texture coordinates, normals, groups and materials are passed over;
-// free-form curves and surfaces are refused by name.
+// Wavefront .obj: v (with w or colours after it), f in all its forms, l, negative indices, lines
+// continued with a backslash. Lines of two points join into curves. Texture coordinates, normals,
+// groups and materials are passed over; free-form curves and surfaces are refused by name.
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 
+#include "engine/formats/join_edges.h"
 #include "engine/formats/limits.h"
 #include "engine/formats/readers.h"
 #include "engine/formats/text.h"
@@ -28,6 +30,17 @@ constexpr std::array<std::string_view, 3> kFreeForm = {"curv", "curv2", "surf"};
 constexpr std::array<std::string_view, 9> kFreeFormParts = {"deg",  "step", "parm", "trim", "hole",
                                                             "scrv", "sp",   "end",  "res"};
 
+// A line without its comment and the blanks at its end. A comment ends with its line, whatever it
+// ends in, and blanks may follow the backslash that joins the next line.
+std::string_view Statement(std::string_view line) {
+  line = line.substr(0, line.find('#'));
+  return line.substr(0, line.find_last_not_of(" \t\v\f") + 1);
+}
+
+bool IsContinued(std::string_view statement) {
+  return !statement.empty() && statement.back() == '\\';
+}
+
 class ObjReader {
  public:
   ObjReader(std::string_view bytes, const std::string& name) : lines_(bytes), name_(name) {}
@@ -37,13 +50,13 @@ class ObjReader {
     std::string joined;
     while (lines_.Next(&line)) {
       line_ = line.number;
-      std::string_view content = line.text;
-      if (!content.empty() && content.back() == '\\') {
+      std::string_view content = Statement(line.text);
+      if (IsContinued(content)) {
         joined.clear();
-        while (!content.empty() && content.back() == '\\') {
+        while (IsContinued(content)) {
           joined.append(content.substr(0, content.size() - 1)).push_back(' ');
           if (joined.size() > limits::kLineBytes) return LineTooLong(At(1));
-          content = lines_.Next(&line) ? line.text : std::string_view();
+          content = lines_.Next(&line) ? Statement(line.text) : std::string_view();
         }
         content = joined.append(content);
       }
@@ -65,7 +78,6 @@ class ObjReader {
   }
 
   Result<> ReadLine(std::string_view content) {
-    content = content.substr(0, content.find('#'));
     text::Words words(content);
     text::Word word;
     if (!words.Next(&word)) return Ok{};
@@ -101,10 +113,18 @@ class ObjReader {
     vertex_line_.push_back(line_);
     if (count >= 6) {
       colors_.resize(points_.size() - 1, Rgb(1));
-      const size_t first = count - 3;
-      colors_.push_back(Rgb(static_cast<float>(number[first]),
-                            static_cast<float>(number[first + 1]),
-                            static_cast<float>(number[first + 2])));
+      if (count == 7) {
+        return Fail(words->column(), name +
+                                         " has seven numbers, and the fourth may be a weight or "
+                                         "the seventh an alpha; write x y z r g b");
+      }
+      for (size_t k = 3; k < 6; ++k) {
+        if (number[k] < 0 || number[k] > 1) {
+          return Fail(words->column(), name + " has a colour that is not within 0 to 1");
+        }
+      }
+      colors_.push_back(Rgb(static_cast<float>(number[3]), static_cast<float>(number[4]),
+                            static_cast<float>(number[5])));
     }
     return Ok{};
   }
@@ -199,17 +219,33 @@ class ObjReader {
     if (curve_vertex_.size() > limits::kVertices + curve_size_.size()) {
       return TooManyVertices({name_, 0, 0});
     }
+    std::vector<std::array<uint32_t, 2>> pieces;  // lines of two points, which join
     size_t begin = 0;
     for (const size_t size : curve_size_) {
-      Polyline curve;
-      curve.closed = size > 3 && curve_vertex_[begin] == curve_vertex_[begin + size - 1];
-      for (size_t k = 0; k + (curve.closed ? 1 : 0) < size; ++k) {
-        curve.points.push_back(points_[curve_vertex_[begin + k]]);
+      if (size == 2) pieces.push_back({curve_vertex_[begin], curve_vertex_[begin + 1]});
+      begin += size;
+    }
+    const std::vector<Chain> chains = JoinEdges(pieces, points_.size());
+    begin = 0;
+    size_t piece = 0, chain = 0;
+    for (const size_t size : curve_size_) {
+      if (size > 2) {
+        const bool closed = size > 3 && curve_vertex_[begin] == curve_vertex_[begin + size - 1];
+        AddCurve(std::span(curve_vertex_).subspan(begin, size - (closed ? 1 : 0)), closed);
+      } else if (chain < chains.size() && chains[chain].first == piece++) {
+        AddCurve(chains[chain].vertices, chains[chain].closed);
+        ++chain;
       }
       begin += size;
-      shape_.curves.push_back(std::move(curve));
     }
     return Ok{};
+  }
+
+  void AddCurve(std::span<const uint32_t> vertices, bool closed) {
+    Polyline curve;
+    curve.closed = closed;
+    for (const uint32_t v : vertices) curve.points.push_back(points_[v]);
+    shape_.curves.push_back(std::move(curve));
   }
 
   // Vertices that only lines use belong to the curves; all others, used or not, to the mesh.

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <limits>
 
 #include "engine/base/clamp.h"
 #include "engine/formats/limits.h"
@@ -81,10 +82,13 @@ Result<> PlyBody::Read(const PlyElement& element, uint64_t row, PlyType type, bo
                        double* value) {
   if (encoding_ == PlyEncoding::kAscii) {
     text::Word word;
-    if (!words_.Next(&word)) return Fail(element, row, "the line holds too few numbers");
+    if (auto ok = NextWord(element, row, &word); !ok) return ok;
     const text::NumberFault fault = text::ParseNumber(word.text, value);
-    if (fault != text::NumberFault::kNone)
+    if (fault == text::NumberFault::kNotANumber) {
       return Fail(element, row, text::Explain(fault, word.text));
+    }
+    // As in binary files: whoever needs the value looks at it, and other properties hold anything.
+    if (fault != text::NumberFault::kNone) *value = std::numeric_limits<double>::quiet_NaN();
   } else {
     const size_t size = PlyTypeBytes(type);
     if (rest_.size() < size) return Fail(element, row, "the file ends here; it is cut short");
@@ -98,24 +102,26 @@ Result<> PlyBody::Read(const PlyElement& element, uint64_t row, PlyType type, bo
   return Ok{};
 }
 
+// The next word, on this line or a later one: the format counts numbers, not lines.
+Result<> PlyBody::NextWord(const PlyElement& element, uint64_t row, text::Word* word) {
+  while (!words_.Next(word)) {
+    text::Line line;
+    if (!lines_.Next(&line)) {
+      line_ = header_lines_ + lines_.line_number();
+      return Fail(element, row, "the file ends here; it is cut short or the header counts wrongly");
+    }
+    line_ = header_lines_ + line.number;
+    if (line.text.size() > limits::kLineBytes) {
+      return MakeError(ErrorCode::kLimit, "a line longer than 16 MiB", {name_, line_, 1});
+    }
+    words_ = text::Words(line.text);
+  }
+  return Ok{};
+}
+
 Result<> PlyBody::ReadRow(const PlyElement& element, uint64_t row) {
   numbers_.clear();
   begin_.assign(1, 0);
-  if (encoding_ == PlyEncoding::kAscii) {
-    text::Line line;
-    do {
-      if (!lines_.Next(&line)) {
-        line_ = header_lines_ + lines_.line_number();
-        return Fail(element, row,
-                    "the file ends here; it is cut short or the header counts wrongly");
-      }
-      line_ = header_lines_ + line.number;
-      if (line.text.size() > limits::kLineBytes) {
-        return MakeError(ErrorCode::kLimit, "a line longer than 16 MiB", {name_, line_, 1});
-      }
-    } while (line.text.find_first_not_of(" \t") == line.text.npos);
-    words_ = text::Words(line.text);
-  }
   for (const PlyProperty& property : element.properties) {
     uint64_t count = 1;
     if (property.list) {
@@ -130,10 +136,6 @@ Result<> PlyBody::ReadRow(const PlyElement& element, uint64_t row) {
     }
     begin_.push_back(numbers_.size());
   }
-  text::Word extra;
-  if (encoding_ == PlyEncoding::kAscii && words_.Next(&extra)) {
-    return Fail(element, row, "the line holds more numbers than the header has properties");
-  }
   return Ok{};
 }
 
@@ -145,10 +147,16 @@ Result<> PlyBody::ExpectEnd() {
                        "too little",
                    {name_, 0, 0});
   }
+  text::Word extra;
+  if (words_.Next(&extra)) {
+    return Invalid("more numbers than the header counts", {name_, line_, extra.column});
+  }
   text::Line line;
   while (lines_.Next(&line)) {
-    if (line.text.find_first_not_of(" \t") == line.text.npos) continue;
-    return Invalid("more lines than the header counts", {name_, header_lines_ + line.number, 1});
+    words_ = text::Words(line.text);
+    if (!words_.Next(&extra)) continue;
+    return Invalid("more numbers than the header counts",
+                   {name_, header_lines_ + line.number, extra.column});
   }
   return Ok{};
 }

@@ -24,18 +24,20 @@ class PlyBody {
   Result<> ReadRow(const PlyElement& element, uint64_t row);
   Result<> ExpectEnd();
 
-  // Of the row read last, by property. A single value may be any double, NaN too, in binary files.
+  // Of the row read last, by property. A single value may be any double, NaN too; in ASCII files
+  // NaN also stands for numbers beyond 1e15.
   double Value(size_t property) const { return numbers_[begin_[property]]; }
   std::span<const double> List(size_t property) const {
     return std::span<const double>(numbers_).subspan(begin_[property],
                                                      begin_[property + 1] - begin_[property]);
   }
-  int line() const { return line_; }  // 0 in binary files
+  int line() const { return line_; }  // of the number read last; 0 in binary files
 
-  // "face 17: ..." with the line of the row read last.
+  // "face 17: ..." with that line.
   Error Fail(const PlyElement& element, uint64_t row, const std::string& message) const;
 
  private:
+  Result<> NextWord(const PlyElement& element, uint64_t row, text::Word* word);
   Result<> Read(const PlyElement& element, uint64_t row, PlyType type, bool count, double* value);
 
   const PlyEncoding encoding_;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "engine/base/clamp.h"
+#include "engine/formats/join_edges.h"
 #include "engine/formats/limits.h"
 #include "engine/formats/ply_body.h"
 #include "engine/formats/ply_header.h"
@@ -23,11 +24,11 @@ size_t Find(const PlyElement& element, std::string_view name, bool list) {
   return kNone;
 }
 
-// What a colour of this type has to be divided by.
+// The value of this type that means 1. Of the wider whole numbers the files that are about hold
+// bytes.
 float ColorScale(PlyType type) {
-  if (type == PlyType::kUint8) return 255;
-  if (type == PlyType::kUint16) return 65535;
-  return 1;
+  if (type == PlyType::kFloat || type == PlyType::kDouble) return 1;
+  return type == PlyType::kUint16 ? 65535 : 255;
 }
 
 class PlyReader {
@@ -81,7 +82,8 @@ class PlyReader {
       for (const size_t property : {x, y, z}) {
         const double value = body_.Value(property);
         if (!(value >= -limits::kCoordinate && value <= limits::kCoordinate)) {
-          return body_.Fail(element, i, "a coordinate is not finite or beyond 1e15");
+          return body_.Fail(element, i,
+                            "a coordinate is not finite or beyond 1e15; write a number");
         }
       }
       if (!colored) continue;
@@ -89,10 +91,13 @@ class PlyReader {
       for (int k = 0; k < 3; ++k) {
         const size_t property = rgb[static_cast<size_t>(k)];
         const double value = body_.Value(property);
-        if (!(value >= -limits::kCoordinate && value <= limits::kCoordinate)) {
-          return body_.Fail(element, i, "a colour is not finite or beyond 1e15");
+        const float scale = ColorScale(element.properties[property].type);
+        if (!(value >= 0 && value <= scale)) {
+          return body_.Fail(element, i,
+                            "a colour is not within 0 to " + std::to_string(ClampToInt64(scale)) +
+                                ", which is what its type holds");
         }
-        color[k] = static_cast<float>(value) / ColorScale(element.properties[property].type);
+        color[k] = static_cast<float>(value) / scale;
       }
       colors_.push_back(color);
     }
@@ -194,20 +199,11 @@ class PlyReader {
     return std::move(shape_);
   }
 
-  // Edges one after another that share a vertex form one curve; it is closed where it comes home.
   void ChainEdges() {
-    for (size_t begin = 0, end = 0; begin < edges_.size(); begin = end) {
-      end = begin + 1;
-      const uint32_t home = edges_[begin][0];
-      bool closed = false;
-      while (!closed && end < edges_.size() && edges_[end][0] == edges_[end - 1][1]) {
-        closed = edges_[end][1] == home && end - begin >= 2;
-        ++end;
-      }
+    for (const Chain& chain : JoinEdges(edges_, points_.size())) {
       Polyline curve;
-      curve.closed = closed;
-      for (size_t e = begin; e < end; ++e) curve.points.push_back(points_[edges_[e][0]]);
-      if (!closed) curve.points.push_back(points_[edges_[end - 1][1]]);
+      curve.closed = chain.closed;
+      for (const uint32_t v : chain.vertices) curve.points.push_back(points_[v]);
       shape_.curves.push_back(std::move(curve));
     }
   }

@@ -16,14 +16,16 @@ std::string_view WithoutPlus(std::string_view word) {
   return word;
 }
 
-// "nan", "-inf", "infinity", "nan(...)": what std::from_chars would take and people do not mean.
+// "nan", "-inf", "infinity", "nan(...)", which std::from_chars would take and people do not mean,
+// and what some C libraries print instead: "1.#QNAN", "-1.#INF".
 bool IsNotFinite(std::string_view word) {
   if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.remove_prefix(1);
   std::string lower;
   for (const char c : word.substr(0, 9)) {
     lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   }
-  return lower == "nan" || lower == "inf" || lower == "infinity" || lower.rfind("nan(", 0) == 0;
+  return lower == "nan" || lower == "inf" || lower == "infinity" || lower.rfind("nan(", 0) == 0 ||
+         lower.rfind("1.#", 0) == 0;
 }
 
 }  // namespace

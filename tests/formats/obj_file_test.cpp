@@ -25,7 +25,7 @@ TEST(ObjFileTest, FacesInAllTheirForms) {
 }
 
 TEST(ObjFileTest, ColoursAfterTheVertex) {
-  const ShapeFile shape = Read("v 0 0 0 1 0.5 0\nv 1 0 0 1.0 0 0.25 1\nv 0 1 0\nf 1 2 3\n").value();
+  const ShapeFile shape = Read("v 0 0 0 1 0.5 0\nv 1 0 0 0 0.25 1\nv 0 1 0\nf 1 2 3\n").value();
   ASSERT_EQ(shape.mesh.colors.size(), 3u);
   EXPECT_EQ(shape.mesh.colors[0], Rgb(1, .5, 0));
   EXPECT_EQ(shape.mesh.colors[1], Rgb(0, .25, 1));
@@ -41,6 +41,37 @@ TEST(ObjFileTest, G52_LinesAreCurves) {
   EXPECT_EQ(shape.curves[0].points.size(), 3u);
   EXPECT_TRUE(shape.curves[1].closed);
   EXPECT_EQ(shape.curves[1].points.size(), 3u);
+}
+
+TEST(ObjFileTest, LinesOfTwoPointsJoin) {
+  const ShapeFile shape = Read(
+                              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 5 0\nv 6 6 0\nl 5 6 1\nl 1 "
+                              "2\nl 2 3\nl 4 3\nl 1 4\n")
+                              .value();
+  ASSERT_EQ(shape.curves.size(), 2u);
+  EXPECT_EQ(shape.curves[0].points.size(), 3u);
+  EXPECT_TRUE(shape.curves[1].closed);
+  EXPECT_EQ(shape.curves[1].points,
+            (std::vector<Vec3>{Vec3(0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)}));
+}
+
+TEST(ObjFileTest, CommentsNeverContinue) {
+  const std::string tail = "v 1 0 0\nv 1 1 0\nf 1 2 3\n";
+  for (const char* head : {"# model C:\\work\\\nv 0 0 0\n", "v 0 0 0 # a path \\\n",
+                           "v 0 0 \\ # of three\n0\n", "#\\\r\nv 0 0 0\r\n"}) {
+    SCOPED_TRACE(head);
+    const ShapeFile shape = Read(head + tail).value();
+    EXPECT_EQ(shape.mesh.points, (std::vector<Vec3>{Vec3(0), Vec3(1, 0, 0), Vec3(1, 1, 0)}));
+  }
+}
+
+TEST(ObjFileTest, BlanksMayFollowTheBackslash) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  for (const char* face :
+       {"f 1 2 \\ \n3 4\n", "f 1 2\\\t\r\n3 4\n", "f \\  \n1 2 3\\ \n4", "f 1 2 3 4 \\ "}) {
+    SCOPED_TRACE(face);
+    EXPECT_EQ(Read(points + face).value().mesh.face_vertex, (std::vector<uint32_t>{0, 1, 2, 3}));
+  }
 }
 
 TEST(ObjFileTest, VerticesMayFollowTheirUse) {
@@ -65,6 +96,8 @@ TEST(ObjFileTest, EveryFaultIsNamedWithItsPlace) {
       {"v 0 0 0\nv 1 0\n", "a.obj:2:6", "vertex 2 has 2 numbers"},
       {"v 0 0 0\nv 1 0 0 1 1\n", "a.obj:2:12", "5 numbers"},
       {"v 0 0 0\nv 1 0 0 1 1 1 1 1\n", "a.obj:2:17", "more than seven"},
+      {"v 0 0 0\nv 1 0 0 1 1 1 1\n", "a.obj:2:16", "seven numbers"},
+      {"v 0 0 0\nv 1 0 0 255 0 0\n", "a.obj:2:16", "not within 0 to 1"},
       {"v 0 0 0\nv nan 0 0\n", "a.obj:2:3", "not finite"},
       {"v 0 0 0\nv 0 -inf 0\n", "a.obj:2:5", "not finite"},
       {"v 0 0 0\nv 0 1e308 0\n", "a.obj:2:5", "too large"},

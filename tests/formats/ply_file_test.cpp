@@ -116,21 +116,78 @@ TEST(PlyFileTest, EveryFaultIsNamedWithItsPlace) {
       {with("list uchar int", "list float int"), "a.ply:12:15", "whole-number type"},
       {with("vertex_indices", "something"), "a.ply:11:1", "vertex_indices"},
       {with("comment by hand", "remark by hand"), "a.ply:3:1", "'remark' is no line"},
-      {with("1 0 0 0 255 0", "1 nan 0 0 255 0"), "a.ply:15", "vertex 2: 'nan' is not finite"},
-      {with("1 0 0 0 255 0", "1 0 0 0 255"), "a.ply:15", "too few numbers"},
-      {with("1 0 0 0 255 0", "1 0 0 0 255 0 9"), "a.ply:15", "more numbers"},
+      {with("1 0 0 0 255 0", "1 nan 0 0 255 0"), "a.ply:15",
+       "vertex 2: a coordinate is not finite"},
+      {with("1 0 0 0 255 0", "1 0 0 0 256 0"), "a.ply:15", "not within 0 to 255"},
+      {with("1 0 0 0 255 0", "1 0 0 0 nan 0"), "a.ply:15", "not within 0 to 255"},
+      {with("1 0 0 0 255 0", "1 0 x 0 255 0"), "a.ply:15", "'x' is not a number"},
+      {with("3 0 2 3\n", "3 0 2 3 9\n"), "a.ply:19:9", "more numbers"},
+      {with("3 0 1 2", "nan 0 1 2"), "a.ply:18", "negative or absurd"},
       {with("3 0 1 2", "3 0 1 4"), "a.ply:18", "face 1: names vertex 4"},
       {with("3 0 1 2", "3 0 1 -1"), "a.ply:18", "names vertex -1"},
       {with("3 0 1 2", "3 0 1 1.5"), "a.ply:18", "not whole"},
       {with("3 0 1 2", "2 0 1"), "a.ply:18", "has 2 vertices"},
       {with("3 0 1 2", "-3 0 1 2"), "a.ply:18", "negative or absurd"},
       {with("3 0 2 3\n", ""), "a.ply:18", "the file ends here"},
-      {good + "3 0 1 2\n", "a.ply:20:1", "more lines"},
+      {good + "3 0 1 2\n", "a.ply:20:1", "more numbers"},
       {with("element face 2", "element tristrips 2"), "a.ply:11:1", "strips are not read"},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.words);
     ExpectError(Read(c.text), c.place, c.words);
+  }
+}
+
+const char* const kTriangle =
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+
+std::string Vertices(const std::string& more, const std::string& rows) {
+  return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+         "property float z\n" +
+         more + kTriangle + rows;
+}
+
+TEST(PlyFileTest, AsciiIsReadByNumbersNotByLines) {
+  const std::vector<Vec3> points = {Vec3(0), Vec3(1, 0, 0), Vec3(1, 1, 0)};
+  for (const char* rows : {"0 0 0 1 0 0 1 1 0\n3 0 1 2\n", "0 0 0 1\n\n0 0\n1 1 0 3 0\n1\n2",
+                           "0\n0\n0\n1\n0\n0\n1\n1\n0\n3\n0\n1\n2\n"}) {
+    SCOPED_TRACE(rows);
+    const ShapeFile shape = Read(Vertices("", rows)).value();
+    EXPECT_EQ(shape.mesh.points, points);
+    EXPECT_EQ(shape.mesh.face_vertex, (std::vector<uint32_t>{0, 1, 2}));
+  }
+}
+
+TEST(PlyFileTest, WhatIsNotUsedMayHoldAnything) {
+  for (const char* odd : {"nan", "-nan(ind)", "1.#QNAN", "-inf", "1700000000000000001", "1e400"}) {
+    SCOPED_TRACE(odd);
+    const std::string o = odd;
+    const auto shape = Read(Vertices(
+        "property double time\nproperty list uchar float more\n",
+        "0 0 0 " + o + " 1 " + o + "\n1 0 0 " + o + " 0\n1 1 0 0 2 " + o + " 7\n3 0 1 2\n"));
+    ASSERT_TRUE(shape) << shape.error().message;
+    EXPECT_EQ(shape->mesh.points[2], Vec3(1, 1, 0));
+  }
+}
+
+TEST(PlyFileTest, ColoursAreScaledByTheirType) {
+  for (const auto& [type, full] :
+       std::vector<std::pair<std::string, std::string>>{{"uchar", "255"},
+                                                        {"short", "255"},
+                                                        {"ushort", "65535"},
+                                                        {"int", "255"},
+                                                        {"uint32", "255"},
+                                                        {"float", "1"},
+                                                        {"double", "1"}}) {
+    SCOPED_TRACE(type);
+    const std::string properties =
+        "property " + type + " red\nproperty " + type + " green\nproperty " + type + " blue\n";
+    const auto rows = [](const std::string& value) {
+      return "0 0 0 " + value + " 0 0\n1 0 0 0 " + value + " 0\n1 1 0 0 0 " + value + "\n3 0 1 2\n";
+    };
+    const ShapeFile shape = Read(Vertices(properties, rows(full))).value();
+    EXPECT_EQ(shape.mesh.colors, (std::vector<Rgb>{Rgb(1, 0, 0), Rgb(0, 1, 0), Rgb(0, 0, 1)}));
+    ExpectError(Read(Vertices(properties, rows(full + "1"))), "a.ply:13", "a colour is not within");
   }
 }
 

@@ -26,7 +26,7 @@ Mesh AnyMesh() {
     const bool bytes = *rc::gen::arbitrary<bool>();
     const auto channel = [bytes] {
       return bytes ? static_cast<float>(*rc::gen::inRange(0, 256)) / 255.f
-                   : static_cast<float>(*rc::gen::inRange(0, 1'000'000)) / 7.f;
+                   : static_cast<float>(*rc::gen::inRange(0, 1'000'000)) / 1e6f;
     };
     for (int i = 0; i < points; ++i) mesh.colors.push_back({channel(), channel(), channel()});
   }
