@@ -7,6 +7,7 @@
 #include "engine/scene/field_path.h"
 #include "engine/scene/limits.h"
 #include "engine/scene/parameters.h"
+#include "engine/texture/registry.h"
 
 namespace fjord {
 namespace {
@@ -153,6 +154,10 @@ void FillMaterial(const v1::Scene& scene, v1::Object* object, const Geometry* ge
   }
   for (v1::RampStop& stop : *material->mutable_ramp())
     Fill(&stop, &v1::RampStop::has_color, &v1::RampStop::mutable_color, 0, 0, 0);
+  for (v1::Stage& stage : *material->mutable_stage()) {
+    const StageInfo* info = FindTextureStage(stage.kind());
+    if (info != nullptr) CompleteEntry(*info, &stage);
+  }
 }
 
 std::string StemOf(const std::string& file_name) {
