@@ -6,6 +6,7 @@
 #include "engine/formats/limits.h"
 #include "engine/formats/readers.h"
 #include "engine/formats/svg_path.h"
+#include "engine/formats/svg_style.h"
 #include "engine/formats/text.h"
 #include "engine/formats/xml_scan.h"
 #include "engine/geometry/edges.h"
@@ -60,7 +61,8 @@ class SvgReader {
   struct Level {
     std::string_view name;
     SvgMatrix matrix;
-    bool hidden = false;
+    bool hidden = false;  // with all that is inside
+    bool visible = true;  // what is inside may say otherwise
   };
 
   // Line and column are worked out for the one message that needs them.
@@ -83,12 +85,18 @@ class SvgReader {
     if (!open_.empty()) {
       level.matrix = open_.back().matrix;
       level.hidden = open_.back().hidden;
+      level.visible = open_.back().visible;
     }
     if (open_.size() >= limits::kDepth) {
       return MakeError(ErrorCode::kLimit, "more than 64 elements within each other",
                        At(tag.offset));
     }
-    level.hidden = level.hidden || IsOneOf(tag.name, kHidden);
+    level.hidden =
+        level.hidden || IsOneOf(tag.name, kHidden) || StyleValue(tag, "display") == "none";
+    const std::string visibility = StyleValue(tag, "visibility");
+    if (visibility == "visible") level.visible = true;
+    if (visibility == "hidden" || visibility == "collapse") level.visible = false;
+    if (auto ok = RefuseWhatBends(tag, level.hidden); !ok) return ok;
     if (!level.hidden) {
       const std::string_view text = tag.Find("transform");
       SvgMatrix own;
@@ -96,7 +104,34 @@ class SvgReader {
       level.matrix = level.matrix * own;
     }
     open_.push_back(level);
-    return level.hidden ? Result<>(Ok{}) : Draw(tag, level.matrix);
+    return level.hidden || !level.visible ? Result<>(Ok{}) : Draw(tag, level.matrix);
+  }
+
+  // What would put curves elsewhere, or hide them, in a way that is not read.
+  Result<> RefuseWhatBends(const XmlTag& tag, bool hidden) const {
+    if (tag.name == "style") {
+      const size_t begin = std::min(tag.offset, bytes_.size());
+      const std::string_view sheet = bytes_.substr(begin, bytes_.find("</", begin) - begin);
+      for (const std::string_view word : {"display", "visibility", "transform"}) {
+        if (sheet.find(word) == sheet.npos) continue;
+        return Fail(begin, "a style sheet that sets " + std::string(word) +
+                               " is not read; save with style attributes instead");
+      }
+    }
+    if (hidden) return Ok{};
+    if (!StyleValue(tag, "transform-origin").empty()) {
+      return Fail(tag.offset, "transform-origin is not read; apply transforms before saving");
+    }
+    if (StyleDeclares(tag, "transform")) {
+      return Fail(tag.offset, "a transform in style is not read; write it as an attribute");
+    }
+    if (tag.name != "svg" || open_.empty()) return Ok{};
+    for (const std::string_view name : {"x", "y", "width", "height", "viewBox"}) {
+      if (tag.Find(name).empty()) continue;
+      return Fail(tag.offset, "an <svg> with " + std::string(name) +
+                                  " inside another is not read; take its content out of it");
+    }
+    return Ok{};
   }
 
   Result<> Draw(const XmlTag& tag, const SvgMatrix& matrix) {

@@ -1,6 +1,7 @@
 #include "engine/formats/svg_path.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/base/exact_math.h"
@@ -238,8 +239,32 @@ SvgFault ParseTransform(std::string_view text, SvgMatrix* matrix) {
 }
 
 SvgFault ParseLength(std::string_view text, double* value) {
+  struct Unit {
+    std::string_view name;
+    double pixels;
+  };
+  constexpr std::array<Unit, 8> kUnits = {{{"", 1},
+                                           {"px", 1},
+                                           {"in", 96},
+                                           {"cm", 96 / 2.54},
+                                           {"mm", 96 / 25.4},
+                                           {"q", 96 / 101.6},
+                                           {"pt", 96 / 72.},
+                                           {"pc", 16}}};
   SvgScan scan(text);
-  return scan.ReadNumber(value) ? SvgFault{} : scan.fault();
+  if (!scan.ReadNumber(value)) return scan.fault();
+  const SvgFault unknown =
+      scan.Fault("a length is in px, in, cm, mm, Q, pt or pc; others are not read");
+  std::string word(scan.ReadWord());
+  for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  scan.SkipSpace();
+  if (!scan.AtEnd()) return unknown;
+  for (const Unit& unit : kUnits) {
+    if (unit.name != word) continue;
+    *value *= unit.pixels;
+    return {};
+  }
+  return unknown;
 }
 
 }  // namespace fjord::formats

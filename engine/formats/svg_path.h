@@ -36,7 +36,7 @@ SvgFault ParsePath(std::string_view data, size_t most_points, std::vector<SvgCur
 SvgFault ParsePoints(std::string_view list, size_t most_points, std::vector<Vec2>* points);
 // matrix, translate, scale, rotate, skewX and skewY, from left to right.
 SvgFault ParseTransform(std::string_view text, SvgMatrix* matrix);
-// "12", "12.5px" (also pt, mm, ...: the unit is not used).
+// "12", "12.5px", "1in", in pixels, of which an inch has 96. Other units are faults.
 SvgFault ParseLength(std::string_view text, double* value);
 
 }  // namespace fjord::formats

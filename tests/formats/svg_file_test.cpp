@@ -71,6 +71,83 @@ TEST(SvgFileTest, QuadraticsAndTheirSmoothForm) {
   EXPECT_EQ(curves[0].points.back(), Vec3(4, 0, 0));
 }
 
+TEST(SvgFileTest, WhatIsHiddenIsNotDrawn) {
+  const std::string seen = "<path d='M0 0H10V10'/>";
+  for (const char* hidden :
+       {"<path style='display:none' d='M0 0H50V50'/>", "<path display='none' d='M0 0H50V50'/>",
+        "<path visibility='hidden' d='M0 0H50V50'/>",
+        "<g style='fill:red; Display : NONE !important;'><path display='inline' d='M0 0H5'/></g>",
+        "<g visibility='collapse'><g><path d='M0 0H50'/></g></g>",
+        "<path display='inline' style='display:inline;display:none' d='M0 0H50'/>",
+        "<g display='none'><rect/><svg width='1'><path d='M0 0H50'/></svg></g>"}) {
+    const auto shape = Read("<svg>" + std::string(hidden) + seen + "</svg>");
+    ASSERT_TRUE(shape) << hidden << shape.error().ToString();
+    ASSERT_EQ(shape->curves.size(), 1u) << hidden;
+    EXPECT_EQ(shape->curves[0].points[1], Vec3(10, 0, 0)) << hidden;
+  }
+  // Visibility is inherited, but what is inside may say otherwise; style wins over the attribute.
+  EXPECT_TRUE(
+      Read("<svg><g visibility='hidden'><path visibility='visible' d='M0 0H1'/></g></svg>"));
+  EXPECT_TRUE(Read("<svg><path display='none' style='display:inline' d='M0 0H1'/></svg>"));
+}
+
+TEST(SvgFileTest, DrawingsThatOtherProgramsSaved) {
+  const auto first = [](const std::string& name) {
+    const ShapeFile shape = Read(ReadTestFile("tests/fuzz/corpus/shape/" + name)).value();
+    EXPECT_EQ(shape.curves.size(), 1u) << name;
+    return shape.curves[0].points;
+  };
+  const Points seen = {{0, 0, 0}, {10, 0, 0}, {10, -10, 0}};
+  EXPECT_EQ(first("hidden_layers.svg"), seen);
+  EXPECT_EQ(first("hidden_path.svg"), seen);
+  const Points line = first("line_units.svg");
+  EXPECT_NEAR(line[0].x, 37.7953, 1e-4);
+  EXPECT_NEAR(line[1].x, 96, 1e-9);
+  EXPECT_NEAR(line[1].y, -75.5906, 1e-4);
+}
+
+TEST(SvgFileTest, LengthsHaveUnits) {
+  const auto line = [](const std::string& x) {
+    return Read("<svg>\n<line x1='" + x + "' x2='1e3' y2='1'/></svg>");
+  };
+  const std::pair<const char*, double> cases[] = {{"10mm", 10 * 96 / 25.4},
+                                                  {"1in", 96},
+                                                  {"2cm", 2 * 96 / 2.54},
+                                                  {"3pt", 4},
+                                                  {"1pc", 16},
+                                                  {"40Q", 96 / 2.54},
+                                                  {"7px", 7},
+                                                  {" 7 ", 7}};
+  for (const auto& [text, pixels] : cases) {
+    EXPECT_NEAR(line(text).value().curves[0].points[0].x, pixels, 1e-12) << text;
+  }
+  const std::pair<const char*, const char*> unknown[] = {{"1em", "a.svg:2:12"},
+                                                         {"2ex", "a.svg:2:12"},
+                                                         {"50%", "a.svg:2:13"},
+                                                         {"1 2", "a.svg:2:12"},
+                                                         {"1furlong", "a.svg:2:12"}};
+  for (const auto& [text, place] : unknown) {
+    ExpectError(line(text), place, "a length is in px");
+  }
+}
+
+TEST(SvgFileTest, WhatWouldBendCurvesUnseenIsRefused) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"<svg x='5'><path d='M0 0H1'/></svg>", "<svg> with x"},
+      {"<svg viewBox='0 0 1 1'><path d='M0 0H1'/></svg>", "<svg> with viewBox"},
+      {"<svg width='9' height='9'/>", "<svg> with width"},
+      {"<path transform-origin='1 1' transform='scale(2)' d='M0 0H1'/>", "transform-origin"},
+      {"<g style='transform-origin: 1px 1px'/>", "transform-origin"},
+      {"<g style='transform: scale(2)'/>", "transform in style"},
+      {"<style>.a{display:none}</style>", "style sheet that sets display"},
+      {"<defs><style><![CDATA[ .a { visibility: hidden } ]]></style></defs>", "sets visibility"}};
+  for (const auto& [text, words] : cases) {
+    ExpectError(Read("<svg>\n" + std::string(text) + "</svg>"),
+                std::string(text).rfind("<defs>", 0) == 0 ? "a.svg:2:7" : "a.svg:2:1", words);
+  }
+  EXPECT_TRUE(Read("<svg><svg><style>.a{fill:red}</style><path d='M0 0H1'/></svg></svg>"));
+}
+
 TEST(SvgFileTest, ListsAndLines) {
   const ShapeFile shape =
       Read(
