@@ -42,7 +42,7 @@ short_tests() {
   esac
 }
 # What is about files, compilers or speed, and not about memory or threads.
-readonly kElsewhere='^(Lint|Gate|Sanitize)\.|CostsLittle|MemoryFollows'
+readonly kElsewhere='^(Lint|Gate|Sanitize)\.|CostsLittle|MemoryFollows|BoundedMemory'
 
 build() {
   local preset=$1 log=$work/$1.log start=$SECONDS

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "client/console.h"
 #include "engine/base/digest.h"
 
 namespace fjord {
@@ -92,6 +93,7 @@ Error InScene(Error error, const std::string& scene_file) {
 Errors OpenScene(const std::string& path, const std::vector<Setting>& settings,
                  OpenedScene* opened) {
   LoadResult loaded = LoadSceneFile(path, settings);
+  for (const std::string& note : loaded.notes) console::Note(note);
   if (!loaded.ok()) return std::move(loaded.errors);
   opened->digest = Sha256Of(SerializeScene(loaded.loaded.scene)).Hex();
   Result<std::shared_ptr<const Animation>> animation = Animation::Make(std::move(loaded.loaded));

@@ -77,6 +77,7 @@ int RunSubmit(const Options& options) {
   const Result<double> budget = ParseBudget(options.budget, kFrameBudget);
   if (!budget.ok()) return console::Fail(budget.error());
   LoadResult loaded = LoadSceneFile(options.scene, *settings);
+  for (const std::string& note : loaded.notes) console::Note(note);
   if (!loaded.ok()) return console::Fail(loaded.errors);
   range = WithinAnimation(*range, 1, loaded.loaded.scene.output().frames(), options.scene);
   if (!range.ok()) return console::Fail(range.error());

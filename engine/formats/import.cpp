@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/clamp.h"
+#include "engine/base/exact_math.h"
 #include "engine/formats/text.h"
 #include "engine/geometry/check_mesh.h"
 #include "engine/geometry/edges.h"
@@ -13,6 +14,9 @@ namespace fjord {
 namespace {
 
 constexpr size_t kMostNotes = 5;
+constexpr size_t kMostCurves = 1000;  // that become objects
+// The default amplitude is for shapes of this extent.
+constexpr double kAmplitude = .15, kAmplitudeExtent = 2, kH = .7;
 constexpr double kAspect = 960. / 540;
 constexpr double kMargin = 1.1;
 // Eye distance that holds a ball of radius 1 at a vertical angle of 35 degrees: 1 / sin(17.5
@@ -69,23 +73,40 @@ std::string NameOf(const std::string& path) {
                       c == '_' || c == '-';
     name += good ? c : '_';
   }
-  return name.empty() ? "shape" : name;
+  const bool digits = name.find_first_not_of("0123456789") == name.npos;
+  return digits ? "shape" + name : name;  // a name is no number
 }
 
 enum class Form { kCurve, kOutline, kFlatMesh, kRelief, kClosedMesh };
 
+// What becomes an object: the file's faces, or one of its curves.
+struct Piece {
+  Form form = Form::kCurve;
+  bool closed = false;
+  size_t curve = 0;  // from 1; 0: all that the file holds
+};
+
 struct Judged {
-  Form form = Form::kRelief;
+  Form form = Form::kRelief;  // of the faces, else of the first curve
   bool closed = false;        // of a curve
   bool level_border = false;  // of a relief: all boundary vertices lie at the lowest height
   Box box;
+  double longest =
+      0;  // edge of the curves, or of a flat mesh; how far the fractal strays goes by it
 };
 
 Judged Judge(const ShapeFile& shape) {
   Judged judged;
   const Mesh& mesh = shape.mesh;
+  for (const Polyline& curve : shape.curves) {
+    for (size_t k = 0; k < curve.points.size(); ++k) {
+      judged.box.Add(curve.points[k]);
+      if (k == 0 && !curve.closed) continue;
+      const Vec3& before = k > 0 ? curve.points[k - 1] : curve.points.back();
+      judged.longest = std::max(judged.longest, Length(curve.points[k] - before));
+    }
+  }
   if (mesh.face_size.empty()) {
-    for (const Vec3& p : shape.curves[0].points) judged.box.Add(p);
     judged.form = Form::kCurve;
     judged.closed = shape.curves[0].closed;
     return judged;
@@ -94,6 +115,11 @@ Judged Judge(const ShapeFile& shape) {
   if (mesh.FaceCount() == 1 && mesh.face_size[0] > 4) {
     judged.form = Form::kOutline;
     judged.closed = true;
+    for (size_t k = 0; k < mesh.face_vertex.size(); ++k) {
+      const uint32_t before = mesh.face_vertex[k > 0 ? k - 1 : mesh.face_vertex.size() - 1];
+      judged.longest =
+          std::max(judged.longest, Length(mesh.points[mesh.face_vertex[k]] - mesh.points[before]));
+    }
     return judged;
   }
   const EdgeTable table(mesh);
@@ -101,6 +127,7 @@ Judged Judge(const ShapeFile& shape) {
   judged.level_border = true;
   for (const Edge& edge : table.edges()) {
     if (edge.use_count != 1) continue;
+    judged.longest = std::max(judged.longest, Length(mesh.points[edge.a] - mesh.points[edge.b]));
     open = true;
     judged.level_border = judged.level_border && mesh.points[edge.a].z == judged.box.low.z &&
                           mesh.points[edge.b].z == judged.box.low.z;
@@ -113,18 +140,26 @@ Judged Judge(const ShapeFile& shape) {
   return judged;
 }
 
+std::vector<Piece> PiecesOf(const ShapeFile& shape, const Judged& judged) {
+  std::vector<Piece> pieces;
+  const bool faces = !shape.mesh.face_size.empty();
+  if (faces || shape.curves.size() == 1) pieces.push_back({judged.form, judged.closed, 0});
+  if (!faces && shape.curves.size() == 1) return pieces;
+  for (size_t k = 0; k < shape.curves.size(); ++k) {
+    pieces.push_back({Form::kCurve, shape.curves[k].closed, k + 1});
+  }
+  return pieces;
+}
+
 std::string FormText(const ShapeFile& shape, const Judged& judged) {
   const std::string vertices = std::to_string(shape.mesh.points.size()) + " vertices, ";
-  const std::string faces = std::to_string(shape.mesh.FaceCount()) + " faces";
+  std::string faces = std::to_string(shape.mesh.FaceCount()) + " faces";
+  if (!shape.curves.empty()) faces += ", and " + std::to_string(shape.curves.size()) + " curves";
   switch (judged.form) {
     case Form::kCurve: {
-      std::string text = std::string(judged.closed ? "a closed" : "an open") + " curve of " +
-                         std::to_string(shape.curves[0].points.size()) + " points";
-      if (shape.curves.size() > 1) {
-        text += " (the first of " + std::to_string(shape.curves.size()) +
-                " in the file; a scene takes one curve from a file)";
-      }
-      return text;
+      if (shape.curves.size() > 1) return std::to_string(shape.curves.size()) + " curves";
+      return std::string(judged.closed ? "a closed" : "an open") + " curve of " +
+             std::to_string(shape.curves[0].points.size()) + " points";
     }
     case Form::kOutline:
       return "one outline of " + std::to_string(shape.mesh.face_size[0]) + " vertices";
@@ -173,7 +208,10 @@ std::string Camera(const Judged& judged) {
     return eye;
   };
   if (size.z == 0) {
-    const double height = Rounded(std::max(size.y, size.x / kAspect) * kMargin, extent);
+    // Lines stray from their coarse form by up to some two fifths of an edge on either side.
+    const double stray = 2 * .4 * judged.longest;
+    const double height =
+        Rounded(std::max(size.y + stray, (size.x + stray) / kAspect) * kMargin, extent);
     return "camera {  # from above: the shape is flat\n  eye " + Xyz(at({0, 0, extent})) +
            "\n  look_at " + Xyz(center) +
            "\n  up { x: 0 y: 1 z: 0 }\n  projection: ORTHOGRAPHIC\n" +
@@ -208,6 +246,44 @@ const char* MethodOf(Form form) {
   return "surface";
 }
 
+// Law AFFINE gives a shape k times as large the same relief under an amplitude k^(1-H) times as
+// large.
+std::string Amplitude(const Judged& judged, const ParFile* par) {
+  if (par != nullptr && (par->fixvl || par->sigma)) return "";  // its own numbers say how much
+  const Vec3 size = judged.box.high - judged.box.low;
+  const double extent = std::max({size.x, size.y, size.z});
+  const double H = par != nullptr && par->H ? *par->H : kH;
+  const double amplitude = kAmplitude * exact::Pow(extent / kAmplitudeExtent, 1 - H);
+  if (amplitude == kAmplitude) return "";
+  return "    amplitude: " + Text(std::min(amplitude, 1e6)) + "  # by the size of the shape\n";
+}
+
+std::string ObjectText(const Piece& piece, size_t number, const std::string& name,
+                       const std::string& shape_path, const Judged& judged, const ParFile* par,
+                       bool colors) {
+  std::string out = "objects {\n  name: " + ProtoString(name) +
+                    "\n  shape { file { path: " + ProtoString(shape_path);
+  if (piece.form == Form::kOutline) out += " outline: true";
+  if (piece.curve > 0) out += " curve: " + std::to_string(piece.curve);
+  out += std::string(" } }\n  fractal {\n    method: \"") + MethodOf(piece.form) + "\"\n";
+  if (par != nullptr) out += Knobs(*par);
+  if (number > 0 && (par == nullptr || !par->seed)) {
+    out += "    seed: " + std::to_string(number + 1) + "  # no two alike\n";
+  }
+  const bool relief = piece.form == Form::kRelief;
+  if (relief || piece.form == Form::kClosedMesh) out += Amplitude(judged, par);
+  if (relief && judged.level_border) {
+    out += "    coast: true  # the border is level, so it stays a shore\n";
+  }
+  out += "  }\n";
+  if (piece.closed) {
+    out += "  material { color { r: 0.1 g: 0.2 b: 0.05 } fill: true }\n";
+  } else if (colors && piece.curve == 0) {
+    out += "  material { vertex_color: true }  # the file's own colours\n";
+  }
+  return out + "}\n";
+}
+
 }  // namespace
 
 Result<std::string> SceneTextFromShape(const ShapeFile& shape, const std::string& shape_path,
@@ -226,6 +302,14 @@ Result<std::string> SceneTextFromShape(const ShapeFile& shape, const std::string
   if (!(std::max({size.x, size.y, size.z}) > 0)) {
     return Invalid("all points of the shape are at one place; there is nothing to see",
                    {shape_path, 0, 0});
+  }
+  if (shape.curves.size() > kMostCurves) {
+    return MakeError(ErrorCode::kLimit,
+                     std::to_string(shape.curves.size()) + " curves; at most " +
+                         std::to_string(kMostCurves) +
+                         " become objects. Join or thin them, or take single ones by "
+                         "`file { curve: ... }`",
+                     {shape_path, 0, 0});
   }
   const std::string name = NameOf(shape_path);
   std::string out = "# " + text::OneLine(shape_path) + ": " + FormText(shape, judged) + ", x " +
@@ -247,21 +331,12 @@ Result<std::string> SceneTextFromShape(const ShapeFile& shape, const std::string
   if (judged.form == Form::kRelief && judged.level_border) {
     out += "sea { level: " + Text(judged.box.low.z) + " }  # the height of the shape's border\n";
   }
-  out += "objects {\n  name: " + ProtoString(name) +
-         "\n  shape { file { path: " + ProtoString(shape_path) +
-         (judged.form == Form::kOutline ? " outline: true" : "") + " } }\n";
-  out += std::string("  fractal {\n    method: \"") + MethodOf(judged.form) + "\"\n";
-  if (par != nullptr) out += Knobs(*par);
-  if (judged.form == Form::kRelief && judged.level_border) {
-    out += "    coast: true  # the border is level, so it stays a shore\n";
+  const std::vector<Piece> pieces = PiecesOf(shape, judged);
+  for (size_t k = 0; k < pieces.size(); ++k) {
+    out += ObjectText(pieces[k], k, k == 0 ? name : name + "_" + std::to_string(k + 1), shape_path,
+                      judged, par, !shape.mesh.colors.empty());
   }
-  out += "  }\n";
-  if (judged.closed) {
-    out += "  material { color { r: 0.1 g: 0.2 b: 0.05 } fill: true }\n";
-  } else if (!shape.mesh.colors.empty()) {
-    out += "  material { vertex_color: true }  # the file's own colours\n";
-  }
-  return out + "}\n";
+  return out;
 }
 
 }  // namespace fjord

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "engine/formats/join_edges.h"
+#include "engine/geometry/join_edges.h"
 #include "engine/formats/limits.h"
 #include "engine/formats/readers.h"
 #include "engine/formats/text.h"

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "engine/base/clamp.h"
-#include "engine/formats/join_edges.h"
+#include "engine/geometry/join_edges.h"
 #include "engine/formats/limits.h"
 #include "engine/formats/ply_body.h"
 #include "engine/formats/ply_header.h"

@@ -67,6 +67,7 @@ LoadResult Complete(v1::Scene scene, const AssetReader& assets, std::span<const 
     CheckScene(&whole, shapes, &errors);
   }
   result.errors = errors.Take();
+  result.notes = errors.TakeNotes();
   return result;
 }
 

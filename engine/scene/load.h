@@ -35,6 +35,7 @@ struct LoadedScene {
 struct LoadResult {
   LoadedScene loaded;
   Errors errors;
+  std::vector<std::string> notes;  // lines for people: what was read, but not all of it
   bool ok() const { return errors.empty(); }
 };
 

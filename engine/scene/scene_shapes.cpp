@@ -1,5 +1,6 @@
 #include "engine/scene/scene_shapes.h"
 
+#include <set>
 #include <utility>
 
 #include "engine/base/digest.h"
@@ -96,6 +97,12 @@ std::vector<ShapeEntry> ShapesOf(v1::Scene* scene, int object) {
 SceneShapes ReadShapes(v1::Scene* scene, const AssetReader& reader,
                        std::map<std::string, std::string>* assets, SceneErrors* errors) {
   SceneShapes shapes;
+  std::set<std::string> single;  // files of which curves are taken one by one
+  for (int i = 0; i < scene->objects_size(); ++i) {
+    for (const auto& [shape, route] : ShapesOf(scene, i)) {
+      if (shape->file().curve() > 0) single.insert(shape->file().path());
+    }
+  }
   for (int i = 0; i < scene->objects_size(); ++i) {
     auto& geometries = shapes.of.emplace_back();
     for (const auto& [shape, route] : ShapesOf(scene, i)) {
@@ -114,6 +121,9 @@ SceneShapes ReadShapes(v1::Scene* scene, const AssetReader& reader,
       Result<Geometry> geometry = DecodeShape(*shape, *assets);
       const bool needs_mesh = scene->objects(i).has_fractal() || !scene->objects(i).has_shape();
       if (geometry && needs_mesh) geometry = WithMesh(std::move(*geometry));
+      if (geometry && !geometry->left_out.empty() && single.count(shape->file().path()) == 0) {
+        errors->Note(route.Then("file"), geometry->left_out);
+      }
       if (geometry) {
         geometries.back() = std::move(*geometry);
       } else if (geometry.error().place.file.empty()) {

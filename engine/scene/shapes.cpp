@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/formats/shape_file.h"
+#include "engine/geometry/border.h"
 #include "engine/geometry/primitives.h"
 #include "engine/scene/heights.h"
 #include "engine/scene/limits.h"
@@ -141,22 +142,43 @@ Result<Mesh> MakePrimitive(const v1::Primitive& primitive) {
   }
 }
 
+std::string LeftOut(size_t count, const std::string& what, const std::string& remedy) {
+  if (count == 0) return {};
+  return std::to_string(count) + " " + what +
+         (count == 1 ? " of the file is" : "s of the file are") + " left out" + remedy;
+}
+
 Result<Geometry> FromFile(const v1::File& file, const std::string& bytes) {
   Result<ShapeFile> read = ReadShape(bytes, file.path().empty() ? file.digest() : file.path());
   if (!read) return read.error();
+  const size_t faces = read->mesh.FaceCount(), curves = read->curves.size();
+  if (file.curve() > curves) {
+    return Invalid("there is no curve " + std::to_string(file.curve()) + "; the file has " +
+                   std::to_string(curves));
+  }
   Geometry geometry;
-  if (!file.outline() && read->mesh.FaceCount() > 0) {
-    geometry = FromMesh(std::move(read->mesh));
-  } else if (file.outline() && read->mesh.FaceCount() > 0) {
-    const Mesh& mesh = read->mesh;
+  if (file.outline() && file.curve() > 0) return Invalid("give outline or curve, not both");
+  if (file.outline() && faces > 0) {
+    const std::vector<Chain> borders = BorderOf(read->mesh);
+    if (borders.empty()) return Invalid("the mesh is closed and so has no outline");
+    if (!borders[0].closed) return Invalid("the border of the mesh meets itself; mend the mesh");
     geometry.curve = geometry.closed = true;
-    for (uint32_t i = 0; i < mesh.face_size[0]; ++i) {
-      geometry.points.push_back(mesh.points[mesh.face_vertex[i]]);
-    }
-  } else if (!read->curves.empty()) {
+    for (const uint32_t v : borders[0].vertices) geometry.points.push_back(read->mesh.points[v]);
+    geometry.left_out = LeftOut(borders.size() - 1, "more border", "");
+  } else if (file.curve() == 0 && faces > 0) {
+    geometry = FromMesh(std::move(read->mesh));
+    geometry.left_out = LeftOut(curves, "curve", "; `curve: 1` takes the first of them");
+  } else if (curves > 0) {
+    Polyline& taken = read->curves[file.curve() == 0 ? 0 : file.curve() - 1];
     geometry.curve = true;
-    geometry.closed = read->curves[0].closed;
-    geometry.points = std::move(read->curves[0].points);
+    geometry.closed = taken.closed;
+    geometry.points = std::move(taken.points);
+    // Who names a curve knows that there are others.
+    if (file.curve() == 0) {
+      geometry.left_out =
+          LeftOut(curves - 1, "more curve",
+                  "; `curve: 2` takes the second, and fjord import makes an object of each");
+    }
   } else {
     return Invalid(file.path() + " has no faces and no curves");
   }

@@ -25,6 +25,7 @@ struct Geometry {
   // Drawn from its samples. Points and faces are the corners and the ground of its box then, so
   // that bounds can be had from them.
   std::optional<HeightField> heights;
+  std::string left_out;  // what else its file holds, in words; empty: nothing
 };
 
 // The same with heights made into a mesh; kLimit where they are too many for one.

@@ -44,6 +44,15 @@ void SceneErrors::AddAt(Error error) {
   if (!full_) errors_.push_back(std::move(error));
 }
 
+void SceneErrors::Note(const Route& route, const std::string& message) {
+  if (notes_.size() >= limits::kErrors) return;
+  const Place place = source_->Find(route);
+  std::string at = place.file;
+  if (place.line > 0) at += ':' + std::to_string(place.line);
+  if (place.column > 0) at += ':' + std::to_string(place.column);
+  notes_.push_back(at + ": note: " + PrintRoute(*scene_, route) + ": " + message);
+}
+
 Errors SceneErrors::Take() {
   std::stable_sort(errors_.begin(), errors_.end(), [](const Error& a, const Error& b) {
     return std::tie(a.place.file, a.place.line, a.place.column) <

@@ -25,7 +25,7 @@ struct SceneSource {
 };
 
 // Collects defects of a scene, at most limits::kErrors, and gives them in the order of their
-// places.
+// places; and as many notes: what is no defect, but may not be what was meant.
 class SceneErrors {
  public:
   SceneErrors(const v1::Scene* scene, const SceneSource* source) : scene_(scene), source_(source) {}
@@ -38,14 +38,18 @@ class SceneErrors {
   bool Refused(const Route& route) const;
   bool RefusedWithin(const Route& route) const;
   void AddAt(Error error);
+  void Note(const Route& route, const std::string& message);
   bool Full() const { return full_; }
   bool empty() const { return errors_.empty(); }
   Errors Take();
+  // "file:line:column: note: objects[coast].shape.file: message", in the order they came.
+  std::vector<std::string> TakeNotes() { return std::move(notes_); }
 
  private:
   const v1::Scene* scene_;
   const SceneSource* source_;
   Errors errors_;
+  std::vector<std::string> notes_;
   bool full_ = false;
   std::vector<Route> refused_;
 };

@@ -60,7 +60,6 @@ TEST(ImportSceneTest, OtherFormatsAndFormsLoadToo) {
            Case{"closed.obj",
                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"},
            Case{"line.svg", "<svg><path d='M0 0L1 1L2 0'/></svg>"},
-           Case{"two.svg", "<svg><path d='M0 0L1 1L2 0z'/><path d='M5 5L6 6'/></svg>"},
            Case{"tall.svg", "<svg><path d='M0 0L0 7'/></svg>"},
            Case{"small.obj", "v 0 0 0\nv 1e-9 0 0\nv 0 1e-9 0\nf 1 2 3\n"},
            Case{"far.obj", "v 1e9 1e9 0\nv 1000000001 1e9 0\nv 1e9 1000000001 5\nf 1 2 3\n"},
@@ -69,6 +68,35 @@ TEST(ImportSceneTest, OtherFormatsAndFormsLoadToo) {
     SCOPED_TRACE(c.path);
     EXPECT_EQ(Import(c.bytes, c.path, nullptr).objects_size(), 1);
   }
+}
+
+TEST(ImportSceneTest, EveryCurveOfAFileBecomesAnObject) {
+  const v1::Scene svg =
+      Import("<svg><path d='M0 0L1 1L2 0z'/><path d='M5 5L6 6'/></svg>", "17.svg", nullptr);
+  ASSERT_EQ(svg.objects_size(), 2);
+  EXPECT_EQ(svg.objects(0).name(), "shape17");
+  EXPECT_EQ(svg.objects(0).shape().file().curve(), 1u);
+  EXPECT_TRUE(svg.objects(0).material().fill());
+  EXPECT_EQ(svg.objects(1).shape().file().curve(), 2u);
+  EXPECT_FALSE(svg.objects(1).material().fill());
+  const v1::Scene obj =
+      Import("v 0 0 0\nv 1 0 0\nv 0 1 1\nv 3 0 0\nv 4 0 0\nf 1 2 3\nl 4 5\n", "both.obj", nullptr);
+  ASSERT_EQ(obj.objects_size(), 2);
+  EXPECT_EQ(obj.objects(0).shape().file().curve(), 0u);
+  EXPECT_EQ(obj.objects(1).shape().file().curve(), 1u);
+}
+
+// Law AFFINE: k^(1-H), H .7.
+TEST(ImportSceneTest, AmplitudeFollowsTheSizeOfTheShape) {
+  const auto amplitude = [](const std::string& x) {
+    const std::string bytes =
+        "v 0 0 0\nv " + x + " 0 0\nv 0 " + x + " 0\nv 0 0 " + x + "\nf 1 2 3\nf 1 3 4\n";
+    return std::stod(
+        testing::ValueIn(Import(bytes, "a.obj", nullptr).objects(0).fractal(), "amplitude"));
+  };
+  EXPECT_EQ(amplitude("2"), .15);
+  EXPECT_NEAR(amplitude("10000"), 1.931, 1e-3);
+  EXPECT_NEAR(amplitude("0.02"), .03768, 1e-5);
 }
 
 }  // namespace

@@ -526,5 +526,33 @@ TEST(LoadTest, TheWireFormIsCheckedInFull) {
               HasSubstr("made by a newer Fjord"));
 }
 
+LoadResult LoadFile(const std::string& file, const std::string& bytes,
+                    const std::string& more = "") {
+  return LoadSceneText("objects {\n  shape { file { path: \"" + file + "\" " + more + " } } }\n",
+                       "a.scene", [&](const v1::File&) { return Result<std::string>(bytes); });
+}
+
+const char* const kThreeCurves =
+    "<svg><path d='M0 0L1 1L2 0z'/><path d='M5 5L6 6'/><path d='M7 7L9 9L8 8'/></svg>";
+
+TEST(LoadTest, WhatOfAFileIsLeftOutIsSaid) {
+  const LoadResult first = LoadFile("a.svg", kThreeCurves);
+  ASSERT_TRUE(first.ok());
+  ASSERT_EQ(first.notes.size(), 1u);
+  EXPECT_THAT(first.notes[0], HasSubstr("a.scene:2:11: note: "));
+  EXPECT_THAT(first.notes[0], HasSubstr("2 more curves of the file are left out"));
+  EXPECT_TRUE(LoadFile("a.svg", kThreeCurves, "curve: 2").notes.empty());
+  const LoadResult mixed =
+      LoadFile("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 5 5 0\nv 6 6 0\nf 1 2 3\nl 4 5\n");
+  ASSERT_EQ(mixed.notes.size(), 1u);
+  EXPECT_THAT(mixed.notes[0], HasSubstr("1 curve of the file is left out"));
+}
+
+TEST(LoadTest, ACurveThatIsNotThereIsNamed) {
+  const LoadResult none = LoadFile("a.svg", kThreeCurves, "curve: 4");
+  ASSERT_EQ(none.errors.size(), 1u);
+  EXPECT_THAT(none.errors[0].message, HasSubstr("there is no curve 4; the file has 3"));
+}
+
 }  // namespace
 }  // namespace fjord

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace fjord::formats {
+namespace fjord {
 
 struct Chain {
   size_t first = 0;                // the chain's first edge in the list
@@ -20,4 +20,4 @@ struct Chain {
 // in the direction of these. Linear in time.
 std::vector<Chain> JoinEdges(std::span<const std::array<uint32_t, 2>> edges, size_t vertices);
 
-}  // namespace fjord::formats
+}  // namespace fjord

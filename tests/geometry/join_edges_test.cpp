@@ -1,4 +1,4 @@
-#include "engine/formats/join_edges.h"
+#include "engine/geometry/join_edges.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-namespace fjord::formats {
+namespace fjord {
 namespace {
 
 using Edges = std::vector<std::array<uint32_t, 2>>;
@@ -63,4 +63,4 @@ TEST(JoinEdgesTest, EveryEdgeComesOnceWhateverTheEdgesAre) {
 }
 
 }  // namespace
-}  // namespace fjord::formats
+}  // namespace fjord

@@ -1,8 +1,8 @@
-#include "engine/formats/join_edges.h"
+#include "engine/geometry/join_edges.h"
 
 #include <algorithm>
 
-namespace fjord::formats {
+namespace fjord {
 namespace {
 
 constexpr uint32_t kNone = UINT32_MAX;
@@ -106,4 +106,4 @@ std::vector<Chain> JoinEdges(std::span<const Edge> edges, size_t vertices) {
   return Joiner(edges, vertices).Join();
 }
 
-}  // namespace fjord::formats
+}  // namespace fjord
