@@ -6,10 +6,10 @@
 #include <optional>
 #include <span>
 
-#include "engine/geometry/join_edges.h"
 #include "engine/formats/limits.h"
 #include "engine/formats/readers.h"
 #include "engine/formats/text.h"
+#include "engine/geometry/join_edges.h"
 
 namespace fjord::formats {
 namespace {

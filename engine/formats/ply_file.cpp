@@ -5,12 +5,12 @@
 #include <array>
 
 #include "engine/base/clamp.h"
-#include "engine/geometry/join_edges.h"
 #include "engine/formats/limits.h"
 #include "engine/formats/ply_body.h"
 #include "engine/formats/ply_header.h"
 #include "engine/formats/readers.h"
 #include "engine/formats/text.h"
+#include "engine/geometry/join_edges.h"
 
 namespace fjord::formats {
 namespace {
