@@ -20,9 +20,6 @@ constexpr KnobWord kVariants[] = {
     {"FIXED", 1, "the direction as it is"},
     {"CURRENT", 2, "turned square to the segment that is halved now"},
     {"PERTURBED", 3, "CURRENT, with a small random part along the segment"}};
-constexpr KnobWord kIncrements[] = {
-    {"MIDPOINT", 0, "plain halving"},
-    {"ADDITIONS", 1, "successive random additions; with AFFINE, EDGE and FIXED only"}};
 
 bool Affine(const S& s) { return s.law == Law::kAffine; }
 bool AffineOrShih(const S& s) { return s.law == Law::kAffine || s.law == Law::kShih; }
@@ -77,7 +74,7 @@ KnobTable MidpointKnobs(const MidpointOffer& offer) {
           .When("variant PERTURBED", WhenSettings<S, Perturbed>),
       KnobRow<&S::stretch>("stretch", "offsets follow the size of the shape against its rest pose")
           .When("law AFFINE", WhenSettings<S, Affine>),
-      KnobRow<&S::increments>("increments", "what each halving adds").Of(kIncrements),
+      KnobRow<&S::increments>("increments", "what each halving adds").Of(offer.increments),
       KnobRow<&S::coast>("coast", "the border moves level, as a coast"),
       KnobRow<&S::coast_H>("coast_H", "smoother shore; below .5 it folds into bays and spits")
           .In(.06, 1)
@@ -87,7 +84,7 @@ KnobTable MidpointKnobs(const MidpointOffer& offer) {
                 "every field but the common ones has a row");
   constexpr size_t kForAll = 10;  // then increments, coast, coast_H
   std::vector<Knob> offered(rows, rows + kForAll);
-  if (offer.has_additions) offered.push_back(rows[kForAll]);
+  if (!offer.increments.empty()) offered.push_back(rows[kForAll]);
   if (offer.has_coast) offered.insert(offered.end(), rows + kForAll + 1, std::end(rows));
   return KnobTable(std::move(offered), offer.defaults, CheckTogether);
 }

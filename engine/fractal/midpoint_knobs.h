@@ -12,7 +12,7 @@ struct MidpointOffer {
   std::span<const KnobWord> directions;
   bool similar_reads_sigma = false;
   bool has_coast = false;
-  bool has_additions = false;
+  std::span<const KnobWord> increments;  // none: not offered
 };
 
 KnobTable MidpointKnobs(const MidpointOffer& offer);

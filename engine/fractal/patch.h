@@ -90,11 +90,12 @@ struct Patch {
   PatchBuffer<uint32_t> edge_a, edge_b, edge_site;
   PatchBuffer<double> edge_length2;   // rest pose; sign bit: short
   PatchBuffer<double> edge_current2;  // now; kept only where SurfaceRules::current()
+  PatchBuffer<uint64_t> edge_left, edge_right;  // shares; kept only where SurfaceRules::even
   PatchBuffer<uint32_t> edge_slot;    // place among the long edges of this level, kShort, kWaits
   size_t edge_count = 0;
   size_t run_begin = 0;  // edges from here on are the last run
 
-  // This level's long edges: number (kept only where SurfaceRules::sites), ends, squared rest
+  // This level's long edges: number (kept only for sites and shares), ends, squared rest
   // length, and what the affine law gives them.
   PatchBuffer<uint32_t> long_edge, long_a, long_b;
   PatchBuffer<double> long_length2, long_amount;
@@ -120,7 +121,8 @@ struct Patch {
   uint32_t AddVertex(const StreamVertex& value, const Rgb& vertex_color, double eye_distance2,
                      const Weights& its_place = {});
   // `length2`: as stored. A new run begins with the first edge after Clear.
-  uint32_t AddEdge(uint32_t a, uint32_t b, double length2, double current2, uint32_t site);
+  uint32_t AddEdge(uint32_t a, uint32_t b, double length2, double current2, uint32_t site,
+                   uint64_t left = 0, uint64_t right = 0);
   void AddTriangle(const Triangle& corners, const Triangle& edges, uint32_t site, bool sites_kept);
 
   // One level; `edge_level` is that of the edges of the last run, not read under ADAPTIVE.

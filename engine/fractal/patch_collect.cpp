@@ -96,6 +96,7 @@ void CollectLongEdgesLanes(Patch& patch, bool keep_numbers) {
   // Whole vectors may be read.
   hn::StoreU(hn::Zero(d), d, list_a + n);
   hn::StoreU(hn::Zero(d), d, list_b + n);
+  if (keep_numbers) hn::StoreU(hn::Zero(d), d, list + n);
   hn::StoreU(hn::Set(DF(), 1.0), DF(), list_length2 + n);
   patch.long_count = n;
 }

@@ -11,6 +11,7 @@
 #include "engine/base/exact_math-inl.h"
 #include "engine/fractal/patch_lanes-inl.h"
 #include "engine/fractal/patch_moves-inl.h"
+#include "engine/fractal/patch_shares-inl.h"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -99,6 +100,7 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
   const bool current = !kPlain && rules.current();
   const bool sites = !kPlain && rules.sites;
   const bool staged = !kPlain && rules.staged();
+  const bool even = rules.even;
   const StageWeight weight(rules, staged ? level + 1 : 1);
   for (size_t k = 0; k < n; k += kLanes) {
     const size_t lanes = n - k < kLanes ? n - k : kLanes;
@@ -107,7 +109,13 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
     const Columns b = LoadVertices(vertex, list_b + k);
     const VU id_a = hn::BitCast(du, a.v[6]), id_b = hn::BitCast(du, b.v[6]);
     const VU id = MixLanes(id_a + id_b);
-    const VF g = GaussianLanes(rules, id);
+    VU left = hn::Zero(du), right = left;
+    if (even) {
+      const VN number = hn::LoadU(dn, &patch.long_edge[k]);
+      left = Gather(patch.edge_left.data(), number);
+      right = Gather(patch.edge_right.data(), number);
+    }
+    const VF g = even ? SharedGaussianLanes(rules, left, right, id) : GaussianLanes(rules, id);
     const VF stretch = (FloatOf<false>(a.v[7]) + FloatOf<false>(b.v[7])) * half;
 
     // The direction that is kept.
@@ -177,6 +185,12 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
     hn::StoreU(middle, dn, edge_a + second);
     hn::StoreU(hn::LoadU(dn, list_b + k), dn, edge_b + second);
     hn::StoreU(second2, d, edge_length2 + second);
+    if (even) {
+      hn::StoreU(HalfShare(left, false), du, &patch.edge_left[first]);
+      hn::StoreU(HalfShare(right, true), du, &patch.edge_right[first]);
+      hn::StoreU(HalfShare(left, true), du, &patch.edge_left[second]);
+      hn::StoreU(HalfShare(right, false), du, &patch.edge_right[second]);
+    }
     for (size_t i = 0; sites && i < lanes; ++i) {
       const uint32_t number = patch.edge_site[patch.long_edge[k + i]];
       patch.edge_site[first + i] = patch.edge_site[second + i] = number;

@@ -181,7 +181,9 @@ HWY_INLINE void Bend(const SurfaceRules& rules, uint32_t level, const Columns& a
     // Horizontal, square to the edge, to the right hand as seen from the smaller identity (S22), by
     // a share of the edge's horizontal length: nothing jumps as an edge swings past the upright.
     const MF is_coast = hn::Gt(coast, zero);
-    const VF moved = ClampedShare(hn::Set(d, rules.coast_similar) * g);
+    // Coasts share nothing: their dimension rests on draws of their own.
+    const VF own = GaussianLanes(rules, MixLanes(id_a + id_b));
+    const VF moved = ClampedShare(hn::Set(d, rules.coast_similar) * own);
     way = Select(is_coast, {e.y, zero - e.x, zero}, way);
     offset = hn::IfThenElse(is_coast, hn::IfThenElse(first, moved, zero - moved), offset);
   }

@@ -42,7 +42,7 @@ void CollectStage(const SurfaceRules& rules, Patch& patch) {
     ++n;
   }
   for (size_t i = n; i < n + kWidest; ++i) {
-    patch.long_a[i] = patch.long_b[i] = 0;
+    patch.long_a[i] = patch.long_b[i] = patch.long_edge[i] = 0;
     patch.long_length2[i] = 1;
   }
   patch.waiting_count = left;

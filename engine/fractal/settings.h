@@ -15,7 +15,7 @@ enum class Law : uint32_t { kDefault, kAffine, kSimilar, kShih };
 enum class Direction : uint32_t { kDefault, kEdge, kFace, kVertex, kUp };
 enum class Variant : uint32_t { kDefault, kFixed, kCurrent, kPerturbed };
 enum class Split : uint32_t { kDefault, kShot, kAdaptive, kLength };  // as in scene.proto
-enum class Increments : uint32_t { kMidpoint, kAdditions };
+enum class Increments : uint32_t { kMidpoint, kAdditions, kEven };
 
 // When an edge is split (frame.proto, FrameFineness). Object space, rest pose.
 struct Fineness {

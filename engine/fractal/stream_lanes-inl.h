@@ -103,6 +103,9 @@ class Compactor {
 HWY_INLINE VF Gather(const double* from, VN index) {
   return VF{_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, index.raw, from, 8)};
 }
+HWY_INLINE VU Gather(const uint64_t* from, VN index) {
+  return VU{_mm512_mask_i32gather_epi64(_mm512_setzero_si512(), 0xff, index.raw, from, 8)};
+}
 HWY_INLINE V32 Gather(const uint32_t* from, V32 index) {
   return V32{_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), 0xffff, index.raw, from, 4)};
 }
@@ -112,6 +115,9 @@ HWY_INLINE hn::Vec<DS> Gather(const float* from, VN index) {
 #else
 HWY_INLINE VF Gather(const double* from, VN index) {
   return hn::GatherIndex(DF(), from, hn::BitCast(DI(), hn::PromoteTo(DU(), index)));
+}
+HWY_INLINE VU Gather(const uint64_t* from, VN index) {
+  return hn::GatherIndex(DU(), from, hn::BitCast(DI(), hn::PromoteTo(DU(), index)));
 }
 HWY_INLINE V32 Gather(const uint32_t* from, V32 index) {
   const D32 d;

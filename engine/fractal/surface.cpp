@@ -12,43 +12,12 @@
 #include "engine/fractal/surface_coarse.h"
 #include "engine/fractal/surface_rules.h"
 #include "engine/fractal/surface_weld.h"
+#include "engine/fractal/surface_workspace.h"
 
 namespace fjord {
 namespace {
 
 constexpr size_t kMostPoints = size_t{1} << 27;  // 32-bit offsets into 64-byte vertices
-
-struct Workspace {
-  Patch patch;
-  std::vector<PatchRoot> stack;
-};
-
-// A thread's tables, kept between calls. A sink may stream another object meanwhile, so there can
-// be more than one.
-class WorkspaceLease {
- public:
-  WorkspaceLease() {
-    std::vector<std::unique_ptr<Workspace>>& pool = Pool();
-    if (!pool.empty()) {
-      space_ = std::move(pool.back());
-      pool.pop_back();
-    } else {
-      space_ = std::make_unique<Workspace>();
-    }
-    space_->stack.clear();
-  }
-  ~WorkspaceLease() { Pool().push_back(std::move(space_)); }
-  WorkspaceLease(const WorkspaceLease&) = delete;
-  WorkspaceLease& operator=(const WorkspaceLease&) = delete;
-  Workspace& operator*() const { return *space_; }
-
- private:
-  static std::vector<std::unique_ptr<Workspace>>& Pool() {
-    thread_local std::vector<std::unique_ptr<Workspace>> pool;
-    return pool;
-  }
-  std::unique_ptr<Workspace> space_;
-};
 
 class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
  public:
@@ -89,8 +58,8 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
   }
 
   StreamStats Stream(size_t root, StreamSink& sink, size_t patch_hint) const override {
-    const WorkspaceLease lease;
-    Workspace& space = *lease;
+    const SurfaceWorkspaceLease lease;
+    SurfaceWorkspace& space = *lease;
     const size_t hint = std::clamp<size_t>(patch_hint, 16, 1 << 16);
     const std::array<EdgeSite, 4> sites = SitesOf(root);
     StreamStats stats;
@@ -135,6 +104,8 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
       r.place[k] = Weights(k == 0, k == 1, k == 2);
       r.length2[k] = edge.length2;
       r.current2[k] = edge.current2;
+      r.inside[k] = edge.a == v ? edge.left : edge.right;
+      r.outside[k] = edge.a == v ? edge.right : edge.left;
       r.site[k] = static_cast<uint32_t>(k + 1);
     }
     return r;
@@ -225,7 +196,7 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
     }
     for (size_t k = 0; k < 3; ++k) {
       edges[k] = patch.AddEdge(corners[k], corners[(k + 1) % 3], root.length2[k], root.current2[k],
-                               first_site + root.site[k]);
+                               first_site + root.site[k], root.inside[k], root.outside[k]);
     }
     patch.AddTriangle(corners, edges, first_site, sites_kept);
   }
@@ -254,7 +225,7 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
   }
 
   // One level, then every triangle becomes a root of its own.
-  void Cut(const PatchRoot& root, const EdgeSite* sites, bool places, Workspace& space,
+  void Cut(const PatchRoot& root, const EdgeSite* sites, bool places, SurfaceWorkspace& space,
            StreamStats& stats) const {
     Patch& patch = space.patch;
     const SurfaceRules& rules = RulesOf(root, sites);
@@ -276,13 +247,18 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
     child.level = parent.level + 1;
     for (int k = 0; k < 3; ++k) {
       const uint32_t v = patch.triangles.corner[k][t];
-      const uint32_t e = patch.triangles.edge[k][t] & ~Patch::kFlip;
+      const uint32_t used = patch.triangles.edge[k][t];
+      const uint32_t e = used & ~Patch::kFlip;
       child.vertex[k] = patch.vertex[v];
       if (rules_.staged()) child.eye_distance2[k] = patch.distance2[v];
       if (patch.colors) child.color[k] = patch.color[v];
       if (patch.places) child.place[k] = patch.place[v];
       child.length2[k] = patch.edge_length2[e];
       child.current2[k] = patch.edge_current2[e];
+      if (rules_.even) {
+        child.inside[k] = used == e ? patch.edge_left[e] : patch.edge_right[e];
+        child.outside[k] = used == e ? patch.edge_right[e] : patch.edge_left[e];
+      }
       child.site[k] = sites_kept ? patch.edge_site[e] : 0;
     }
     return child;

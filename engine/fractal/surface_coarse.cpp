@@ -6,6 +6,7 @@
 
 #include "engine/base/clamp.h"
 #include "engine/base/random.h"
+#include "engine/fractal/shares.h"
 #include "engine/geometry/edges.h"
 #include "engine/geometry/normals.h"
 
@@ -68,6 +69,55 @@ std::vector<float> Stretches(const CoarseSurface& coarse, size_t vertices) {
   return stretch;
 }
 
+// The side of a triangle that its roles count from, and whether its template is kShareRight's.
+struct TriangleRoles {
+  uint32_t longest = 0;
+  bool right = false;
+};
+
+TriangleRoles RolesOf(const CoarseSurface& coarse, size_t t, bool current, const uint64_t* ids) {
+  const auto length2 = [&](uint32_t k) {
+    const CoarseEdge& edge = coarse.edges[coarse.triangle_edges[t][k]];
+    return current ? edge.current2 : edge.length2;
+  };
+  const auto sum = [&](uint32_t k) { return ids[k] + ids[(k + 1) % 3]; };
+  TriangleRoles roles;
+  for (uint32_t k = 1; k < 3; ++k) {
+    const double most = length2(roles.longest);
+    const bool equal = length2(k) == most;
+    if (length2(k) > most || (equal && sum(k) < sum(roles.longest))) roles.longest = k;
+  }
+  const double c2 = length2(roles.longest);
+  const double others2 = length2((roles.longest + 1) % 3) + length2((roles.longest + 2) % 3);
+  roles.right = (others2 + others2) - c2 <= kMostRight * c2;
+  return roles;
+}
+
+// Both sides of every edge must read the same two shares: those of its triangles where two run
+// along it in opposite ways, otherwise two of its own.
+void SetShares(const EdgeTable& table, bool current, uint64_t seed, CoarseSurface* coarse) {
+  std::vector<uint64_t> shares;  // three a triangle
+  for (size_t t = 0; t < coarse->triangles.size(); ++t) {
+    uint64_t ids[3];
+    for (size_t k = 0; k < 3; ++k) ids[k] = CoarseIdentity(seed, coarse->triangles[t][k]).lo;
+    const TriangleRoles roles = RolesOf(*coarse, t, current, ids);
+    const uint64_t share = CoarseShare(ids[0], ids[1], ids[2]) | (roles.right ? kShareRight : 0);
+    for (uint32_t k = 0; k < 3; ++k) shares.push_back(share | (k + 2 + 3 - roles.longest) % 3);
+  }
+  for (size_t e = 0; e < coarse->edges.size(); ++e) {
+    CoarseEdge& made = coarse->edges[e];
+    const std::span<const EdgeUse> uses = table.Uses(table.edges()[e]);
+    if (uses.size() == 2 && uses[0].forward != uses[1].forward) {
+      made.left = shares[uses[uses[0].forward ? 0 : 1].corner];
+      made.right = shares[uses[uses[0].forward ? 1 : 0].corner];
+      continue;
+    }
+    const uint64_t a = CoarseIdentity(seed, made.a).lo, b = CoarseIdentity(seed, made.b).lo;
+    made.left = EdgeShare(a, b, 0);
+    made.right = EdgeShare(a, b, 1);
+  }
+}
+
 }  // namespace
 
 EdgeSite CoarseSurface::SiteOf(const SurfaceRules& rules, size_t triangle, int k) const {
@@ -94,6 +144,8 @@ Result<CoarseSurface> MakeCoarseSurface(const CoarseShape& shape, const SurfaceR
                     edge.b,
                     Length2(shape.rest[edge.b] - shape.rest[edge.a]),
                     Length2(now[edge.b] - now[edge.a]),
+                    0,
+                    0,
                     {}};
     for (const EdgeUse& use : table.Uses(edge)) {
       made.site.direction += coarse.face_normals[use.face];
@@ -107,6 +159,8 @@ Result<CoarseSurface> MakeCoarseSurface(const CoarseShape& shape, const SurfaceR
     for (uint32_t k = 0; k < 3; ++k) edges[k] = table.OfCorner(static_cast<uint32_t>(3 * t + k));
     coarse.triangle_edges.push_back(edges);
   }
+
+  if (rules.even) SetShares(table, rules.current(), seed, &coarse);
 
   const std::vector<Vec3> normals = VertexNormals(now, coarse.triangles);
   const std::vector<float> stretches =

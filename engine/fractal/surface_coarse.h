@@ -19,6 +19,8 @@ struct CoarseEdge {
   uint32_t b = 0;
   double length2 = 0;   // rest pose
   double current2 = 0;  // now
+  uint64_t left = 0;    // shares of the triangles that run from a to b, and back (shares.h)
+  uint64_t right = 0;
   EdgeSite site;        // not FACE's directions: those are the face's
 };
 

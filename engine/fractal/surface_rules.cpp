@@ -8,6 +8,7 @@
 #include "engine/base/exact_math.h"
 #include "engine/base/random.h"
 #include "engine/fractal/amount.h"
+#include "engine/fractal/shares.h"
 
 namespace fjord {
 namespace {
@@ -63,6 +64,7 @@ Result<SurfaceRules> MakeSurfaceRules(const FractalSettings& settings) {
   rules.coast = settings.coast;
   rules.sites = settings.coast || settings.direction == Direction::kEdge ||
                 settings.direction == Direction::kFace;
+  rules.even = settings.increments == Increments::kEven;
   rules.affine_scale = settings.sigma * settings.amplitude * AffineConstant(settings.H);
   rules.half_H = settings.H * .5;
   rules.uniforms = settings.uniforms;
@@ -137,11 +139,13 @@ double SurfaceReach::Affine(const ReachInput& input, uint32_t levels) const {
   const double farthest = far * (1 + 1e-5);
   const double e2 = LongestShort2(farthest * farthest) * kSlack;
   const double f2 = LongestShort2(nearest > 0 ? nearest * nearest : 0);
+  const double three = rules.even ? kMostRight : 1;
   double sum = 0;
   double now2 = longest2;
   for (uint32_t k = 0; now2 > f2 && k < levels; ++k) {
     sum += exact::Pow(now2, rules.half_H) * kSlack;
-    now2 = std::min(now2, std::max((now2 + 2 * e2) * .25, e2 - f2 * .25)) * kSlack;
+    const double median2 = std::max((now2 + 2 * e2) * .25, e2 - f2 * .25);
+    now2 = std::min(now2, std::max(median2, now2 * three * .25)) * kSlack;
   }
   return amount * sum;
 }

@@ -27,6 +27,7 @@ struct SurfaceRules {
   uint32_t max_level = 0;
   bool coast = false;
   bool sites = false;  // edges must know their EdgeSite
+  bool even = false;   // edges know their triangles' shares (shares.h)
 
   // Offsets.
   double affine_scale = 0;  // sigma A c(H)
@@ -78,7 +79,8 @@ struct ReachInput {
 //          short anywhere in the triangle. A long edge halves; a three-split's inner edges are half
 //          an outer one; the median to the longer of two long edges has at most
 //          (Lambda^2 + 2 e^2) / 4, the median to a single long one (4 e^2 - f^2) / 4. So
-//          the sum of Lambda_k^H over the levels until Lambda_k <= f is taken term by term. Where
+//          the sum of Lambda_k^H over the levels until Lambda_k <= f is taken term by term. EVEN's
+//          medians of a three-split have at most kMostRight Lambda^2 / 4 (shares.h). Where
 //          the split rule reads other lengths, Lambda_k = Lambda.
 //          ADAPTIVE: the longest edges of stage k, shorter than 2 e_k, then what is left of them:
 //          medians to the longer of two, of at most ((2 e_k)^2 + 2 e_k^2) / 4.

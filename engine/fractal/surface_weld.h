@@ -33,6 +33,8 @@ struct PatchRoot {
   Weights place[3];         // while streaming, where it is read
   double length2[3];        // as in Patch
   double current2[3];
+  uint64_t inside[3];   // shares (shares.h): the triangle's own, as each side knows it, and those
+  uint64_t outside[3];  // of its neighbours
   uint32_t site[3];  // 1..3: the side of the coarse triangle that it lies on; 0: inside
   uint32_t level;
 };

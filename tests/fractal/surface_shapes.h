@@ -79,7 +79,11 @@ inline CoarseShape Island() {
   return shape;
 }
 
-inline FractalSettings SurfaceSettings(double epsilon) { return SettingsOf("surface", epsilon); }
+inline FractalSettings SurfaceSettings(double epsilon) {
+  FractalSettings settings = SettingsOf("surface", epsilon);
+  settings.increments = Increments::kEven;
+  return settings;
+}
 
 // By pixels: `pixels` of `focal` from an eye.
 inline FractalSettings PixelSettings(double pixels, double focal, const Vec3& eye,

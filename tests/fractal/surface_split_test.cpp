@@ -219,6 +219,7 @@ TEST(SurfaceSplitTest, S14_HalvingEpsilonLeavesCommonVerticesUnchanged) {
 // The historic law is its formula: Delta_i g move times the edge as it is now.
 TEST(SurfaceSplitTest, S14_TheHistoricLawIsItsFormula) {
   FractalSettings settings = SurfaceSettings(.1);
+  settings.increments = Increments::kMidpoint;
   settings.law = Law::kShih;
   settings.sigma = .5;
   settings.direction = Direction::kUp;
@@ -245,6 +246,7 @@ TEST(SurfaceSplitTest, S14_TheHistoricLawIsItsFormula) {
 TEST(SurfaceSplitTest, S14_TheAffineLawIsItsFormula) {
   for (const uint32_t uniforms : {1u, 3u, 4u, 5u, 16u}) {
     FractalSettings settings = SurfaceSettings(.3);
+    settings.increments = Increments::kMidpoint;
     settings.max_level = 1;
     settings.uniforms = uniforms;
     settings.direction = Direction::kUp;

@@ -32,6 +32,8 @@ std::vector<Variety> Varieties() {
             settings.coast = coast;
             settings.max_level = 3;
             settings.uniforms = coast ? 7 : 4;
+            // One of the six pairs of split and coast keeps to plain halving.
+            if (coast && split == Split::kShot) settings.increments = Increments::kMidpoint;
             all.push_back({std::string(LawName(law)) + ' ' + std::string(DirectionName(direction)) +
                                ' ' + std::string(VariantName(variant)) + ' ' +
                                std::string(SplitName(split)) + (coast ? " coast" : ""),

@@ -13,6 +13,10 @@ constexpr KnobWord kDirections[] = {
     {"VERTEX", 3, "mean of the ends' normals, kept by the new vertex: no kink"},
     {"UP", 4, "+z"}};
 
+constexpr KnobWord kIncrements[] = {
+    {"MIDPOINT", 0, "plain halving"},
+    {"ADDITIONS", 1, "successive random additions; with AFFINE, EDGE and FIXED only"}};
+
 FractalSettings Defaults() {
   FractalSettings settings;
   settings.H = .75;
@@ -30,7 +34,7 @@ MethodInfo CurveMethod() {
        .version = 3,
        .summary = "lines roughened by midpoint displacement: coastlines, ridges, charts, cracks",
        .knobs = MidpointKnobs(
-           {.defaults = Defaults(), .directions = kDirections, .has_additions = true})},
+           {.defaults = Defaults(), .directions = kDirections, .increments = kIncrements})},
       Takes::kCurve,
       [](CoarseShape shape, const FractalCommon& common, const std::any& own) {
         return PrepareCurve(std::move(shape), JoinMidpoint(common, own));

@@ -14,12 +14,17 @@ constexpr KnobWord kDirections[] = {
     {"VERTEX", 3, "mean of the ends' normals, kept by the new vertex: no kink"},
     {"UP", 4, "+z"}};
 
+constexpr KnobWord kIncrements[] = {
+    {"MIDPOINT", 0, "plain halving, as in 1989: diagonals and the lines of the coarse shape show"},
+    {"EVEN", 2, "neighbouring midpoints share half of their numbers, and diagonals alternate"}};
+
 FractalSettings Defaults() {
   FractalSettings settings;
   settings.H = .7;
   settings.law = Law::kAffine;
   settings.direction = Direction::kVertex;
   settings.variant = Variant::kFixed;
+  settings.increments = Increments::kEven;
   return settings;
 }
 
@@ -28,12 +33,13 @@ FractalSettings Defaults() {
 MethodInfo SurfaceMethod() {
   return {
       {.name = "surface",
-       .version = 3,
+       .version = 4,
        .summary = "triangle meshes roughened by midpoint displacement: terrain, planets, any solid",
        .knobs = MidpointKnobs({.defaults = Defaults(),
                                .directions = kDirections,
                                .similar_reads_sigma = true,
-                               .has_coast = true})},
+                               .has_coast = true,
+                               .increments = kIncrements})},
       Takes::kTriangles,
       [](CoarseShape shape, const FractalCommon& common, const std::any& own) {
         return PrepareSurface(std::move(shape), JoinMidpoint(common, own));
