@@ -72,6 +72,7 @@ struct Case {
 std::vector<Case> Cases() {
   FractalSettings settings;
   settings.method = "surface";
+  settings.increments = Increments::kEven;
   settings.fineness.epsilon = .006;
   Case quad{"quad", Quad(), settings};
   settings.fineness.epsilon = .0066;
@@ -85,7 +86,10 @@ std::vector<Case> Cases() {
   Case turned = taiwan;
   turned.name = "taiwan_perturbed";
   turned.settings.variant = Variant::kPerturbed;
-  return {quad, taiwan, pixels, coast, turned};
+  Case midpoint = taiwan;
+  midpoint.name = "taiwan_midpoint";
+  midpoint.settings.increments = Increments::kMidpoint;
+  return {quad, taiwan, pixels, coast, turned, midpoint};
 }
 
 std::unique_ptr<PreparedFractal> PrepareCase(const Case& one) {

@@ -80,7 +80,8 @@ void MeasureAmountsLanes(const SurfaceRules& rules, Patch& patch) {
 
 // kPlain: direction VERTEX, variant FIXED, law affine, split SHOT, no coast: what most
 // pictures use, with nothing left to ask inside the loop.
-template <bool kPlain>
+// kShared: SurfaceRules::even.
+template <bool kPlain, bool kShared>
 HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t level) {
   const DF d;
   const DU du;
@@ -100,7 +101,6 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
   const bool current = !kPlain && rules.current();
   const bool sites = !kPlain && rules.sites;
   const bool staged = !kPlain && rules.staged();
-  const bool even = rules.even;
   const StageWeight weight(rules, staged ? level + 1 : 1);
   for (size_t k = 0; k < n; k += kLanes) {
     const size_t lanes = n - k < kLanes ? n - k : kLanes;
@@ -110,12 +110,12 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
     const VU id_a = hn::BitCast(du, a.v[6]), id_b = hn::BitCast(du, b.v[6]);
     const VU id = MixLanes(id_a + id_b);
     VU left = hn::Zero(du), right = left;
-    if (even) {
+    if (kShared) {
       const VN number = hn::LoadU(dn, &patch.long_edge[k]);
       left = Gather(patch.edge_left.data(), number);
       right = Gather(patch.edge_right.data(), number);
     }
-    const VF g = even ? SharedGaussianLanes(rules, left, right, id) : GaussianLanes(rules, id);
+    const VF g = kShared ? SharedGaussianLanes(rules, left, right, id) : GaussianLanes(rules, id);
     const VF stretch = (FloatOf<false>(a.v[7]) + FloatOf<false>(b.v[7])) * half;
 
     // The direction that is kept.
@@ -185,7 +185,7 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
     hn::StoreU(middle, dn, edge_a + second);
     hn::StoreU(hn::LoadU(dn, list_b + k), dn, edge_b + second);
     hn::StoreU(second2, d, edge_length2 + second);
-    if (even) {
+    if (kShared) {
       hn::StoreU(HalfShare(left, false), du, &patch.edge_left[first]);
       hn::StoreU(HalfShare(right, true), du, &patch.edge_right[first]);
       hn::StoreU(HalfShare(left, true), du, &patch.edge_left[second]);
@@ -207,10 +207,14 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
 void SplitEdgesLanes(const SurfaceRules& rules, Patch& patch, uint32_t level) {
   const bool plain = rules.direction == Direction::kVertex && rules.variant == Variant::kFixed &&
                      rules.law == Law::kAffine && rules.split == Split::kShot && !rules.sites;
-  if (plain) {
-    SplitEdgesBy<true>(rules, patch, level);
+  if (plain && rules.even) {
+    SplitEdgesBy<true, true>(rules, patch, level);
+  } else if (plain) {
+    SplitEdgesBy<true, false>(rules, patch, level);
+  } else if (rules.even) {
+    SplitEdgesBy<false, true>(rules, patch, level);
   } else {
-    SplitEdgesBy<false>(rules, patch, level);
+    SplitEdgesBy<false, false>(rules, patch, level);
   }
 }
 
