@@ -76,7 +76,7 @@ class TriangleLanes {
 
   // What a triangle's new edges need to know of it.
   struct Sharing {
-    VU share;    // of its longest edge
+    VU share;    // as its longest long edge has it
     VU role[3];  // of its edges, counted from that
     hn::Mask<DU> right;
   };
@@ -88,21 +88,24 @@ class TriangleLanes {
                    hn::Set(du, kShareRole));
   }
 
-  // Not turned as Three's are, but with the same outcome: an edge that both make is the same edge.
-  Sharing Known() const {
+  // Not turned as triangles of three long edges are, but with the same outcome: an edge that both
+  // make is the same edge. `share0`: the key as edge 0 has it, a long edge.
+  Sharing Known(VU share0) const {
+    return Known(share0, share0, hn::MaskFromVec(hn::Set(DU(), ~uint64_t{0})));
+  }
+  // The key as the longer of two long edges has it: edge 0 where `first`, otherwise edge 1.
+  Sharing Known(VU share0, VU share1, hn::Mask<DU> first) const {
     const DU du;
-    Sharing known{
-        hn::Zero(du), {hn::Zero(du), hn::Zero(du), hn::Zero(du)}, hn::MaskFromVec(hn::Zero(du))};
-    if (!rules_.even) return known;
+    const VU two = hn::Set(du, uint64_t{2}), one = hn::Set(du, uint64_t{1});
     MF is0, is1;
+    Sharing known;
     known.right = hn::RebindMask(du, Longest(is0, is1));
-    const hn::Mask<DU> longest0 = hn::RebindMask(du, is0), longest1 = hn::RebindMask(du, is1);
-    known.share =
-        hn::IfThenElse(longest0, Inside(0), hn::IfThenElse(longest1, Inside(1), Inside(2)));
-    const VU base = hn::IfThenElse(known.right, hn::Set(du, uint64_t{2}),
-                                   hn::And(known.share, hn::Set(du, kShareRole)));
-    const VU after = NextRole(base), last = NextRole(after);
-    known.role[0] = hn::IfThenElse(longest0, base, hn::IfThenElse(longest1, last, after));
+    known.share = hn::IfThenElse(first, share0, share1);
+    const VU its = hn::And(known.share, hn::Set(du, kShareRole));
+    const VU counted = hn::IfThenElse(hn::RebindMask(du, is0), two,
+                                      hn::IfThenElseZero(hn::RebindMask(du, is1), one));
+    const VU kept = hn::IfThenElse(first, its, NextRole(NextRole(its)));
+    known.role[0] = hn::IfThenElse(known.right, counted, kept);
     known.role[1] = NextRole(known.role[0]);
     known.role[2] = NextRole(known.role[1]);
     return known;
@@ -111,7 +114,6 @@ class TriangleLanes {
   // From the middle of edge 0 to that of edge 1.
   Shares CutShares(const Sharing& known) const {
     const DU du;
-    if (!rules_.even) return {known.share, known.share};
     const auto number = [&](uint64_t n) { return hn::Set(du, n); };
     const auto by_role = [&](uint64_t table) {
       return hn::And(hn::Shr(number(table), known.role[2] + known.role[2]), number(3));
@@ -128,7 +130,6 @@ class TriangleLanes {
   // From the middle of edge k to the corner opposite.
   Shares MedianShares(const Sharing& known, int k) const {
     const DU du;
-    if (!rules_.even) return {known.share, known.share};
     const VU two = hn::Set(du, uint64_t{2});
     const hn::Mask<DU> inner = hn::And(known.right, hn::Eq(known.role[k], two));
     const VU flags = hn::Set(du, kShareRight | 2);

@@ -54,7 +54,8 @@ class Expander : private TriangleLanes {
     for (size_t i = 0; i < list.count; i += kLanes) {
       Load(list, i, 1);
       const VF median = Median(length_[1], length_[2], length_[0]);
-      const VN inner = AddEdge(m_[0], v_[2], median, MedianShares(Known(), 0));
+      const VN inner = AddEdge(m_[0], v_[2], median);
+      if (TakeLong()) StoreShares(inner, MedianShares(Known(Inside(0)), 0));
       AddTriangle(v_[0], m_[0], v_[2], First(0), inner, e_[2]);
       AddTriangle(m_[0], v_[1], v_[2], Second(0), e_[1], Back(inner));
     }
@@ -68,15 +69,18 @@ class Expander : private TriangleLanes {
       const VF cut2 = length_[2] * hn::Set(DF(), .25);
       const VF diagonal2 = hn::IfThenElse(first_longer, Median(length_[1], length_[2], length_[0]),
                                           Median(length_[0], length_[2], length_[1]));
-      const Sharing known = Known();
-      const VN cut = AddEdge(m_[0], m_[1], cut2, CutShares(known));
+      const VN cut = AddEdge(m_[0], m_[1], cut2);
       const VN from = hn::IfThenElse(first, m_[0], v_[0]);
       const VN to = hn::IfThenElse(first, v_[2], m_[1]);
-      const Shares of0 = MedianShares(known, 0), of1 = MedianShares(known, 1);
-      const hn::Mask<DU> wide = hn::RebindMask(DU(), first_longer);
-      const VN diagonal = AddEdge(
-          from, to, diagonal2,
-          {hn::IfThenElse(wide, of0.left, of1.right), hn::IfThenElse(wide, of0.right, of1.left)});
+      const VN diagonal = AddEdge(from, to, diagonal2);
+      if (TakeLong()) {
+        const hn::Mask<DU> wide = hn::RebindMask(DU(), first_longer);
+        const Sharing known = Known(Inside(0), Inside(1), wide);
+        StoreShares(cut, CutShares(known));
+        const Shares of0 = MedianShares(known, 0), of1 = MedianShares(known, 1);
+        StoreShares(diagonal, {hn::IfThenElse(wide, of0.left, of1.right),
+                               hn::IfThenElse(wide, of0.right, of1.left)});
+      }
       const VN first0 = First(0), second1 = Second(1);
       AddTriangle(m_[0], v_[1], m_[1], Second(0), First(1), Back(cut));
       AddTriangle(from, hn::IfThenElse(first, m_[1], m_[0]), to, hn::IfThenElse(first, cut, first0),
@@ -89,13 +93,12 @@ class Expander : private TriangleLanes {
 
   void Three(const CaseList& list) {
     if (rules_.even) return EvenThree(list);
-    const Shares none{hn::Zero(DU()), hn::Zero(DU())};
     const VF quarter = hn::Set(DF(), .25);
     for (size_t i = 0; i < list.count; i += kLanes) {
       Load(list, i, 3);
-      const VN p0 = AddEdge(m_[0], m_[1], length_[2] * quarter, none);
-      const VN p1 = AddEdge(m_[1], m_[2], length_[0] * quarter, none);
-      const VN p2 = AddEdge(m_[2], m_[0], length_[1] * quarter, none);
+      const VN p0 = AddEdge(m_[0], m_[1], length_[2] * quarter);
+      const VN p1 = AddEdge(m_[1], m_[2], length_[0] * quarter);
+      const VN p2 = AddEdge(m_[2], m_[0], length_[1] * quarter);
       AddTriangle(v_[0], m_[0], m_[2], First(0), Back(p2), Second(2));
       AddTriangle(m_[0], v_[1], m_[1], Second(0), First(1), Back(p0));
       AddTriangle(m_[2], m_[1], v_[2], Back(p1), Second(1), First(2));
@@ -104,41 +107,19 @@ class Expander : private TriangleLanes {
   }
 
   void EvenThree(const CaseList& list) {
-    const DU du;
     const VF quarter = hn::Set(DF(), .25);
-    const auto number = [&](uint64_t n) { return hn::Set(du, n); };
     for (size_t i = 0; i < list.count; i += kLanes) {
       Load(list, i, 3);
       const MF right = TurnLongestLast();
       const hn::Mask<DN> narrow = Narrow(right);
-      const hn::Mask<DU> wide = hn::RebindMask(du, right);
-
-      // Roles of the sides as their key has them; the children's keys, in the order of the
-      // triangles.
-      const VU share = Inside(2);
-      const VU template_flag = hn::IfThenElseZero(wide, number(kShareRight));
-      const VU role2 = hn::And(share, number(kShareRole));
-      const VU role0 = NextRole(role2), role1 = NextRole(role0);
-      const auto child = [&](uint64_t of_right, VU otherwise) {
-        return hn::Or(ChildShare(share, hn::IfThenElse(wide, number(of_right), otherwise)),
-                      template_flag);
-      };
-      const VU at0 = child(0, role0), at1 = child(1, role1), at2 = child(3, role2),
-               middle = child(2, number(3));
-      const auto shares = [&](VU left, uint64_t left_role, VU right_side, uint64_t right_role,
-                              VU otherwise) {
-        return Shares{hn::Or(left, hn::IfThenElse(wide, number(left_role), otherwise)),
-                      hn::Or(right_side, hn::IfThenElse(wide, number(right_role), otherwise))};
-      };
-
       const VN from = hn::IfThenElse(narrow, m_[2], m_[0]);
       const VN to = hn::IfThenElse(narrow, v_[1], m_[1]);
       const VF inner2 =
           hn::IfThenElse(right, Median(length_[0], length_[1], length_[2]), length_[2] * quarter);
-      const VN inner = AddEdge(from, to, inner2, shares(middle, 2, at1, 2, role2));
-      const VN p1 = AddEdge(m_[1], m_[2], length_[0] * quarter, shares(middle, 1, at2, 0, role0));
-      const VN p2 = AddEdge(m_[2], m_[0], length_[1] * quarter,
-                            shares(hn::IfThenElse(wide, at1, middle), 0, at0, 1, role1));
+      const VN inner = AddEdge(from, to, inner2);
+      const VN p1 = AddEdge(m_[1], m_[2], length_[0] * quarter);
+      const VN p2 = AddEdge(m_[2], m_[0], length_[1] * quarter);
+      if (TakeLong()) StoreThree(hn::RebindMask(DU(), right), inner, p1, p2);
       const VN first1 = First(1);
       AddTriangle(v_[0], m_[0], m_[2], First(0), Back(p2), Second(2));
       AddTriangle(m_[0], v_[1], hn::IfThenElse(narrow, m_[2], m_[1]), Second(0),
@@ -171,7 +152,42 @@ class Expander : private TriangleLanes {
     return hn::Or(slot_[k] + hn::IfThenElse(flipped, against, along), flip_[k]);
   }
 
-  VN AddEdge(VN a, VN b, VF length2, const Shares& shares) {
+  // Is any edge long that was added since the last question, so that shares are read?
+  bool TakeLong() {
+    const bool any = any_long_;
+    any_long_ = false;
+    return any;
+  }
+  void StoreShares(VN edges, const Shares& shares) {
+    const size_t at = hn::GetLane(edges);
+    hn::StoreU(shares.left, DU(), &patch_.edge_left[at]);
+    hn::StoreU(shares.right, DU(), &patch_.edge_right[at]);
+  }
+
+  // Of the inner edges of a triangle with three long ones.
+  void StoreThree(hn::Mask<DU> right, VN inner, VN p1, VN p2) {
+    const DU du;
+    const auto number = [&](uint64_t n) { return hn::Set(du, n); };
+    // Roles of the sides as their key has them; the children's keys, in the order of the triangles.
+    const VU share = Inside(2);
+    const VU right_flag = hn::IfThenElseZero(right, number(kShareRight));
+    const VU role2 = hn::And(share, number(kShareRole));
+    const VU role0 = NextRole(role2), role1 = NextRole(role0);
+    const auto child = [&](uint64_t of_right, VU otherwise) {
+      const VU which = hn::IfThenElse(right, number(of_right), otherwise);
+      return hn::Or(ChildShare(share, which), right_flag);
+    };
+    const VU at0 = child(0, role0), at1 = child(1, role1), at2 = child(3, role2),
+             middle = child(2, number(3));
+    const auto as = [&](VU key, uint64_t of_right, VU otherwise) {
+      return hn::Or(key, hn::IfThenElse(right, number(of_right), otherwise));
+    };
+    StoreShares(inner, {as(middle, 2, role2), as(at1, 2, role2)});
+    StoreShares(p1, {as(middle, 1, role0), as(at2, 0, role0)});
+    StoreShares(p2, {as(hn::IfThenElse(right, at1, middle), 0, role1), as(at0, 1, role1)});
+  }
+
+  VN AddEdge(VN a, VN b, VF length2) {
     const DN dn;
     const size_t at = edges_;
     hn::StoreU(a, dn, edge_a_ + at);
@@ -185,10 +201,7 @@ class Expander : private TriangleLanes {
     }
     hn::StoreU(length2, DF(), length2_ + at);
     if (rules_.sites) hn::StoreU(site_, dn, &patch_.edge_site[at]);
-    if (rules_.even) {
-      hn::StoreU(shares.left, DU(), &patch_.edge_left[at]);
-      hn::StoreU(shares.right, DU(), &patch_.edge_right[at]);
-    }
+    any_long_ |= rules_.even && (rules_.current() || AnyLong(length2));
     edges_ += lanes_;
     return hn::Iota(dn, static_cast<uint32_t>(at));
   }
@@ -221,6 +234,7 @@ class Expander : private TriangleLanes {
   size_t edges_;
   size_t triangles_;
   VN along_, against_;
+  bool any_long_ = false;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -185,7 +185,7 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
     hn::StoreU(middle, dn, edge_a + second);
     hn::StoreU(hn::LoadU(dn, list_b + k), dn, edge_b + second);
     hn::StoreU(second2, d, edge_length2 + second);
-    if (kShared) {
+    if (kShared && (current || AnyLong(first2) || AnyLong(second2))) {
       hn::StoreU(HalfShare(left, false), du, &patch.edge_left[first]);
       hn::StoreU(HalfShare(right, true), du, &patch.edge_right[first]);
       hn::StoreU(HalfShare(left, true), du, &patch.edge_left[second]);

@@ -16,6 +16,12 @@ HWY_BEFORE_NAMESPACE();
 namespace fjord {
 namespace HWY_NAMESPACE {
 
+// Shares of short edges are not made, and nothing reads them: most edges are of the last level.
+HWY_INLINE bool AnyLong(VF length2) {
+  const DI d;
+  return !hn::AllTrue(d, hn::Lt(hn::BitCast(d, length2), hn::Zero(d)));
+}
+
 // The key of a child, flags 0. `child`: 0..3 by lane.
 HWY_INLINE VU ChildShare(VU key, VU child) {
   const DU du;
