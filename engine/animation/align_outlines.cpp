@@ -134,9 +134,13 @@ class Aligner {
       }
       return marks;
     }
-    // what runs past the end of the outline belongs at its start
+    // What runs past the end of the outline belongs at its start: some of what follows the last
+    // anchor, and never an anchor, though one may lie at u 1, where an outline ends in the point it
+    // began with.
+    const auto last =
+        std::find_if(marks.rbegin(), marks.rend(), [](const Mark& m) { return m.anchor != kNone; });
     const auto past =
-        std::find_if(marks.begin(), marks.end(), [](const Mark& m) { return m.u >= 1; });
+        std::find_if(last.base(), marks.end(), [](const Mark& m) { return m.u >= 1; });
     for (auto mark = past; mark != marks.end(); ++mark) mark->u -= 1;
     std::rotate(marks.begin(), past, marks.end());
     return marks;

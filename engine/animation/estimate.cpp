@@ -108,7 +108,10 @@ class Estimator {
  public:
   Estimator(const v1::FrameScene& frame, const v1::FrameObject& object,
             const FractalSettings& settings, double coarser)
-      : view_(frame), law_(settings, coarser), fine_(settings.fineness) {
+      : view_(frame),
+        law_(settings, coarser),
+        fine_(settings.fineness),
+        even_(settings.increments == Increments::kEven) {
     for (size_t i = 0; i < 3; ++i) rows_[i] = {Vec3(i == 0, i == 1, i == 2), 0};
     for (int i = 0; i < 3 && object.transform_size() == 12; ++i) {
       const auto& t = object.transform();
@@ -122,6 +125,7 @@ class Estimator {
   // `split`: which edges are split, from corner k to the next. `flat`: leaves follow the edges'
   // length and not the area.
   void Add(const Cell& whole, const std::array<bool, 3>& split, bool flat) {
+    if (even_ && !flat && AddHalves(whole, split)) return;
     const bool fan = flat && !(whole.now[1] == whole.now[2]);  // triangles along a border
     std::array<double, 3> length{};
     double longest = 0;
@@ -173,6 +177,30 @@ class Estimator {
             glm::dot(rows_[2].first, p) + rows_[2].second};
   }
 
+  // Triangles that are cut along their median (shares.h) keep its length, where it is short, and
+  // not their shape.
+  bool AddHalves(const Cell& whole, const std::array<bool, 3>& split) {
+    constexpr double kShort = .25;
+    const auto& corners = law_.current() ? whole.now : whole.rest;
+    size_t k = 0;  // the longest side's first corner
+    const auto side = [&](size_t i) { return Length(corners[(i + 1) % 3] - corners[i]); };
+    for (size_t i = 1; i < 3; ++i) {
+      if (side(i) > side(k)) k = i;
+    }
+    const size_t next = (k + 1) % 3, across = (k + 2) % 3;
+    const Vec3 middle = (corners[k] + corners[next]) * .5;
+    if (!(Length(corners[across] - middle) < kShort * side(k))) return false;
+    for (const size_t end : {next, k}) {
+      Cell half = whole;
+      half.rest[end] = (whole.rest[k] + whole.rest[next]) * .5;
+      half.now[end] = (whole.now[k] + whole.now[next]) * .5;
+      std::array<bool, 3> halves = split;
+      halves[end == next ? next : across] = true;  // the median
+      Add(half, halves, false);
+    }
+    return true;
+  }
+
   static void Halve(const Cell& cell, std::vector<Cell>* halves) {
     size_t longest = 0;
     double most = -1;
@@ -200,6 +228,7 @@ class Estimator {
   const ViewCone view_;
   const EdgeLaw law_;
   const Fineness& fine_;
+  const bool even_;
   std::array<std::pair<Vec3, double>, 3> rows_;
   double stretch_ = 1;
   size_t cells_ = 0;

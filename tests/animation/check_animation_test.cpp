@@ -127,7 +127,8 @@ TEST(CheckAnimationTest, BigShapesAreCheckedCoarser) {
 // Steep, and the faster the finer the frames are cut, but no jump: 8 to 12 times the shape's step.
 TEST(CheckAnimationTest, S25_SteepIsNotPopping) {
   const auto animation = Animate(
-      Rising("method: \"surface\" epsilon: .05 H: .5 law: SIMILAR direction: UP variant: CURRENT"));
+      Rising("method: \"surface\" epsilon: .05 H: .5 law: SIMILAR direction: UP variant: CURRENT "
+             "increments: MIDPOINT"));
   const Result<AnimationCheck> check = CheckAnimation(*animation);
   ASSERT_TRUE(check.ok()) << check.error().ToString();
   EXPECT_TRUE(check->good) << check->objects[0].verdict;

@@ -187,6 +187,22 @@ RC_GTEST_PROP(CorrespondenceProperty, S25_OriginalPointsAndTheirOrderAreKept, ()
   }
 }
 
+// The last point of the first outline lies on its first, at the end of its length, and is paired.
+TEST(CorrespondenceTest, AnOutlineMayEndInThePointItBeganWith) {
+  const std::vector<Geometry> keys = {
+      Curve({Vec3(0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0)}, true),
+      Curve({Vec3(0), Vec3(2, 0, 0), Vec3(2, 2, 0), Vec3(1, 2, 0), Vec3(0, 2, 0)}, true)};
+  const std::vector<PointPairs> pairs = {{}, {{3, 2}, {0, 4}}};
+  const AlignedKeys aligned = AlignOutlines(keys, pairs);
+  for (size_t k = 0; k < 2; ++k) {
+    for (size_t v = 0; v < keys[k].points.size(); ++v) {
+      EXPECT_EQ(aligned.points[k][aligned.number_of[k][v]], keys[k].points[v]) << k << ' ' << v;
+    }
+  }
+  EXPECT_EQ(aligned.number_of[0][3], aligned.number_of[1][2]);
+  EXPECT_EQ(aligned.number_of[0][0], aligned.number_of[1][4]);
+}
+
 const std::string kSquare = "point {} point { x: 1 } point { x: 1 y: 1 } point { y: 1 }";
 
 std::string Meshes(const std::string& second, const std::string& more) {

@@ -151,7 +151,7 @@ TEST(InvarianceTest, S7_CullingLosesNothing) {
   EXPECT_GT(a.stats.culled, 0u);
 }
 
-constexpr double kMostAlone = 1.5;
+constexpr double kMostAlone = 1.8;  // 1.37 without shared draws, which reach further
 
 TEST(InvarianceTest, OneTileAloneCostsLittleMoreThanItsShare) {
   v1::FrameScene scene = Mixed();
