@@ -21,7 +21,7 @@ struct CoarseEdge {
   double current2 = 0;  // now
   uint64_t left = 0;    // shares of the triangles that run from a to b, and back (shares.h)
   uint64_t right = 0;
-  EdgeSite site;        // not FACE's directions: those are the face's
+  EdgeSite site;  // not FACE's directions: those are the face's
 };
 
 struct CoarseSurface {

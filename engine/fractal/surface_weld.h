@@ -35,7 +35,7 @@ struct PatchRoot {
   double current2[3];
   uint64_t inside[3];   // shares (shares.h): the triangle's own, as each side knows it, and those
   uint64_t outside[3];  // of its neighbours
-  uint32_t site[3];  // 1..3: the side of the coarse triangle that it lies on; 0: inside
+  uint32_t site[3];     // 1..3: the side of the coarse triangle that it lies on; 0: inside
   uint32_t level;
 };
 
