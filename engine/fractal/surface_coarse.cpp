@@ -94,7 +94,8 @@ TriangleRoles RolesOf(const CoarseSurface& coarse, size_t t, bool current, const
 }
 
 // Both sides of every edge must read the same two shares: those of its triangles where two run
-// along it in opposite ways, otherwise two of its own.
+// The shares of an edge belong to it, so that whatever uses it reads the same two: those of its
+// triangles where two run along it in opposite ways, otherwise two of its own.
 void SetShares(const EdgeTable& table, bool current, uint64_t seed, CoarseSurface* coarse) {
   std::vector<uint64_t> shares;  // three a triangle
   for (size_t t = 0; t < coarse->triangles.size(); ++t) {

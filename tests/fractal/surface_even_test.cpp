@@ -111,6 +111,23 @@ TEST_P(SurfaceEvenTest, S18_S23_PlainHalvingShowsBoth) {
   }
 }
 
+// An edge of three triangles, and one along which two run the same way, belong to no pair of
+// triangles; all of them still make the same points on it.
+TEST(SurfaceEvenSeamsTest, S4_OddEdgesStayClosed) {
+  CoarseShape fan = Roof();
+  fan.now.push_back({.6, .5, 1.1});
+  fan.rest = fan.now;
+  fan.triangles = {{0, 1, 2}, {1, 3, 2}, {1, 2, 4}};
+  CoarseShape turned = Roof();
+  turned.triangles = {{0, 1, 2}, {1, 2, 3}};
+  for (const CoarseShape& shape : {fan, turned}) {
+    const auto prepared = Prepare(shape, SurfaceSettings(.04));
+    const Seams seams = SeamsOf(StreamedLeaves(*prepared));
+    EXPECT_EQ(seams.single, BorderPieces(shape, .04));
+    EXPECT_GT(StreamedLeaves(*prepared).size(), 500u);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Splits, SurfaceEvenTest,
                          ::testing::Values(Split::kShot, Split::kAdaptive));
 
