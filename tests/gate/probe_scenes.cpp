@@ -75,9 +75,13 @@ void ProbeFrame(const std::string& name, v1::FrameScene frame, const AssetSet& a
   render.tile_size = options.tile;
   render.patch_size = options.patch;
   constexpr uint32_t kWide = 1920;
-  if (frame.output().width() >= kWide)
-    return ProbeAsUsersRender(name + "/png8", frame, render, report);
-  for (uint32_t format = 0; format < 4; ++format) {
+  if (frame.output().width() >= kWide) {
+    const char* format = kFormats[frame.output().format()];
+    return ProbeAsUsersRender(name + '/' + format, frame, render, report);
+  }
+  // Only EXR pictures have layers.
+  const uint32_t first = frame.output().layer_size() > 0 ? 2 : 0;
+  for (uint32_t format = first; format < 4; ++format) {
     // One format alone at more than one sample: they share all but the last step.
     frame.mutable_output()->set_format(format);
     frame.mutable_output()->set_samples(format == 3 ? 4 : 1);
