@@ -87,7 +87,7 @@ def demo_rate(threads):
         seconds = time.monotonic() - start
         return {"frames": done["rendered"], "seconds": round(seconds, 3),
                 "frames_per_s": round(done["rendered"] / seconds, 3),
-                "triangles": done["triangles"]}
+                "triangles_made": done["triangles_made"]}
 
 
 def peak_memory(pixels):

@@ -134,9 +134,9 @@ Result<> RenderFrames(const LocalRenderJob& job, FrameFolder* folder, FrameProgr
     if (!info.ok()) return info.error();
     FinishedFrame finished{number, {}, std::move(rendered->picture), std::move(info).value()};
     finished.entry.frame_key = key->Hex();
-    finished.entry.triangles = rendered->stats.triangles;
+    finished.entry.triangles_made = rendered->stats.triangles;
     finished.entry.milliseconds = static_cast<uint64_t>(took.count());
-    report->triangles += rendered->stats.triangles;
+    report->triangles_made += rendered->stats.triangles;
     ++report->rendered;
     if (writer) {
       if (!writer->Put(std::move(finished))) break;

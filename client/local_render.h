@@ -26,8 +26,8 @@ struct LocalRenderJob {
 
 struct LocalRenderReport {
   uint32_t rendered = 0;
-  uint32_t kept = 0;  // were there already
-  uint64_t triangles = 0;
+  uint32_t kept = 0;            // were there already
+  uint64_t triangles_made = 0;  // RenderStats
 };
 
 // kCancelled when the flag is set: what was finished is written and named in the manifest. `report`

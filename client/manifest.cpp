@@ -72,7 +72,7 @@ std::string ManifestText(const Manifest& manifest) {
                       {"file", frame.file},
                       {"pixel_digest", frame.pixel_digest},
                       {"frame_key", frame.frame_key},
-                      {"triangles", frame.triangles},
+                      {"triangles_made", frame.triangles_made},
                       {"ms", frame.milliseconds}});
   }
   json["frames"] = std::move(frames);
@@ -99,7 +99,7 @@ Result<Manifest> ParseManifest(std::string_view bytes, const std::string& name) 
     frame.file = TextOf(entry, "file");
     frame.pixel_digest = TextOf(entry, "pixel_digest");
     frame.frame_key = TextOf(entry, "frame_key");
-    frame.triangles = NumberOf<uint64_t>(entry, "triangles");
+    frame.triangles_made = NumberOf<uint64_t>(entry, "triangles_made");
     frame.milliseconds = NumberOf<uint64_t>(entry, "ms");
     const bool plain_name = !frame.file.empty() && frame.file.find('/') == std::string::npos;
     if (!plain_name || !IsDigestHex(frame.pixel_digest) || !IsDigestHex(frame.frame_key))

@@ -18,7 +18,7 @@ struct ManifestFrame {
   std::string file;  // name in the manifest's folder
   std::string pixel_digest;
   std::string frame_key;
-  uint64_t triangles = 0;
+  uint64_t triangles_made = 0;  // depends on threads and tiles: RenderStats
   uint64_t milliseconds = 0;
 };
 

@@ -32,8 +32,9 @@ int Report(const Options& options, const LocalRenderReport& report, const FrameR
            double seconds) {
   if (options.json) {
     const nlohmann::ordered_json json = {
-        {"folder", options.folder},    {"first", range.first}, {"last", range.last},
-        {"rendered", report.rendered}, {"kept", report.kept},  {"triangles", report.triangles},
+        {"folder", options.folder}, {"first", range.first},
+        {"last", range.last},       {"rendered", report.rendered},
+        {"kept", report.kept},      {"triangles_made", report.triangles_made},
         {"seconds", seconds},
     };
     const Result<> printed = console::Print(json.dump(1) + "\n");

@@ -40,11 +40,16 @@ std::string Text(const v1::Job& job, const std::vector<v1::Frame>& frames) {
 }
 
 nlohmann::ordered_json FrameJson(const v1::Frame& frame) {
-  return {{"frame", frame.number()},        {"state", FrameStateName(frame.state())},
-          {"frame_key", frame.key()},       {"pixel_digest", frame.pixel_digest()},
-          {"triangles", frame.triangles()}, {"ms", frame.render_ms()},
-          {"worker", frame.worker()},       {"cached", frame.cached()},
-          {"failures", frame.attempts()},   {"lost_workers", frame.lost_workers()},
+  return {{"frame", frame.number()},
+          {"state", FrameStateName(frame.state())},
+          {"frame_key", frame.key()},
+          {"pixel_digest", frame.pixel_digest()},
+          {"triangles_made", frame.triangles()},
+          {"ms", frame.render_ms()},
+          {"worker", frame.worker()},
+          {"cached", frame.cached()},
+          {"failures", frame.attempts()},
+          {"lost_workers", frame.lost_workers()},
           {"error", frame.error()}};
 }
 

@@ -29,7 +29,9 @@ struct RenderOptions {
 };
 
 struct RenderStats {
-  uint64_t triangles = 0;  // micro-triangles made
+  // Micro-triangles made. Those at the borders of tiles are made for each tile, and what is hidden
+  // is made until something hides it: the count depends on threads, tiles and patches.
+  uint64_t triangles = 0;
   uint64_t midpoints = 0;
   uint64_t culled = 0;  // subtrees not made
   uint32_t depth = 0;

@@ -46,7 +46,7 @@ TEST(ManifestTest, ReadsBackWhatItWrites) {
   ASSERT_EQ(after->frames.size(), 1u);
   EXPECT_EQ(after->frames.at(2).file, "hill.0002.png");
   EXPECT_EQ(after->frames.at(2).frame_key, before.frames.at(2).frame_key);
-  EXPECT_EQ(after->frames.at(2).triangles, 12345678901u);
+  EXPECT_EQ(after->frames.at(2).triangles_made, 12345678901u);
 }
 
 TEST(ManifestTest, RefusesWhatIsNone) {

@@ -52,7 +52,7 @@ TEST_F(RenderTest, WritesFramesAndAManifest) {
   for (const auto& frame : manifest["frames"])
     EXPECT_THAT(digests, HasSubstr(frame["pixel_digest"].get<std::string>()));
   EXPECT_EQ(manifest["scene"]["parameters"]["objects"][0]["fractal"]["seed"], "5");
-  EXPECT_GT(manifest["frames"][0]["triangles"], 0);
+  EXPECT_GT(manifest["frames"][0]["triangles_made"], 0);
 }
 
 TEST_F(RenderTest, EveryThreadCountGivesTheSamePictures) {
