@@ -47,13 +47,13 @@ Result<> CheckFrameBudget(const Animation& animation, const v1::FrameScene& fram
                    LocateField(origin.file, origin.settings, knob));
 }
 
-Result<> CheckBudget(const Animation& animation, const FrameRange& range, double budget,
+Result<> CheckBudget(const Animation& animation, const FrameSet& frames, double budget,
                      Counted counted, const SceneOrigin& origin, FrameEstimate* worst) {
-  const uint32_t last = range.last - range.first;
+  const uint32_t last = frames.size() - 1;
   const uint32_t looks = std::min(last, kFramesLookedAt - 1);
   for (uint32_t i = 0; i <= looks; ++i) {
-    const auto frame =
-        static_cast<uint32_t>(range.first + (looks == 0 ? 0 : uint64_t{last} * i / looks));
+    const uint32_t frame =
+        frames[looks == 0 ? 0 : static_cast<uint32_t>(uint64_t{last} * i / looks)];
     AssetSet assets;
     const Result<v1::FrameScene> scene = animation.Inbetween(frame, &assets);
     if (!scene.ok()) return InScene(scene.error(), origin.file);

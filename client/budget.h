@@ -28,9 +28,9 @@ Result<> CheckFrameBudget(const Animation& animation, const v1::FrameScene& fram
                           const AssetResolver* assets, uint32_t number, double budget,
                           Counted counted, const SceneOrigin& origin);
 
-// The same for some frames of the range: the first, the last and an even choice between. `worst`
+// The same for some of the frames: the first, the last and an even choice between. `worst`
 // (may be null): the largest estimate found.
-Result<> CheckBudget(const Animation& animation, const FrameRange& range, double budget,
+Result<> CheckBudget(const Animation& animation, const FrameSet& frames, double budget,
                      Counted counted, const SceneOrigin& origin, FrameEstimate* worst = nullptr);
 
 }  // namespace fjord

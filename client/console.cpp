@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "client/exit_code.h"
+#include "engine/base/printable.h"
 
 namespace fjord::console {
 namespace {
@@ -33,7 +34,7 @@ void DrawLive() {
 
 void WriteLine(const std::string& line) {
   ClearLive();
-  std::fputs((line + "\n").c_str(), stderr);
+  std::fputs((PrintableLines(line) + "\n").c_str(), stderr);
   DrawLive();
   std::fflush(stderr);
 }
@@ -78,8 +79,10 @@ void SetLive(const std::vector<std::string>& lines) {
 }
 
 Result<> Print(const std::string& text) {
+  const std::string clean = PrintableLines(text);
   const std::lock_guard lock(Mutex());
-  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
+  if (std::fwrite(clean.data(), 1, clean.size(), stdout) == clean.size() &&
+      std::fflush(stdout) == 0)
     return Ok{};
   return MakeError(ErrorCode::kIo, std::string("standard output: ") + std::strerror(errno));
 }

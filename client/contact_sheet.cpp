@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "client/files.h"
 #include "client/pixels.h"
-#include "engine/image/codec.h"
 
 namespace fjord {
 namespace {
@@ -68,22 +66,24 @@ std::vector<float> BoxFilter(const std::vector<float>& linear, uint32_t width, u
   return small;
 }
 
-Result<Picture> MakeContactSheet(const std::vector<std::string>& files, const SheetLayout& layout) {
-  if (files.empty()) return Invalid("there are no pictures for a contact sheet");
-  std::vector<std::string> chosen = files;
-  if (files.size() > kMostFrames) {
+Result<Picture> MakeContactSheet(const std::vector<ListedFrame>& frames,
+                                 const SheetLayout& layout) {
+  if (frames.empty()) return Invalid("there are no pictures for a contact sheet");
+  std::vector<ListedFrame> chosen = frames;
+  if (frames.size() > kMostFrames) {
     chosen.clear();
     for (size_t i = 0; i < kMostFrames; ++i)
-      chosen.push_back(files[i * (files.size() - 1) / (kMostFrames - 1)]);
+      chosen.push_back(frames[i * (frames.size() - 1) / (kMostFrames - 1)]);
   }
   uint32_t columns = 0, rows = 0, width = 0, height = 0, sheet_width = 0, sheet_height = 0;
+  uint32_t full_width = 0, full_height = 0;  // of the first picture
   std::vector<float> sheet;
   for (size_t i = 0; i < chosen.size(); ++i) {
-    const Result<std::string> bytes = ReadFile(chosen[i]);
-    if (!bytes.ok()) return bytes.error();
-    const Result<Picture> picture = DecodePicture(*bytes, chosen[i]);
+    const Result<Picture> picture = ReadFrame(chosen[i]);
     if (!picture.ok()) return picture.error();
     if (i == 0) {
+      full_width = picture->width;
+      full_height = picture->height;
       const double aspect = static_cast<double>(picture->width) / picture->height;
       columns = layout.columns > 0 ? layout.columns : ChooseColumns(chosen.size(), aspect);
       columns = std::min<uint32_t>(columns, static_cast<uint32_t>(chosen.size()));
@@ -98,6 +98,13 @@ Result<Picture> MakeContactSheet(const std::vector<std::string>& files, const Sh
         return MakeError(ErrorCode::kLimit,
                          "the sheet would be larger than 16384 pixels; change --columns");
       sheet.assign(size_t{sheet_width} * sheet_height * 3, kGapColor);
+    }
+    if (!layout.any_size && (picture->width != full_width || picture->height != full_height)) {
+      return Invalid("the picture is " + std::to_string(picture->width) + "x" +
+                         std::to_string(picture->height) + ", the first one " +
+                         std::to_string(full_width) + "x" + std::to_string(full_height) +
+                         "; --allow-mixed takes both",
+                     {chosen[i].file, 0, 0});
     }
     const std::vector<float> thumbnail =
         BoxFilter(LinearSamples(*picture), picture->width, picture->height, width, height);

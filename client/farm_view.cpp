@@ -5,6 +5,7 @@
 
 #include "client/job_text.h"
 #include "client/progress.h"
+#include "engine/base/printable.h"
 
 namespace fjord {
 namespace {
@@ -16,11 +17,8 @@ uint32_t Rendered(const v1::FrameCounts& frames) {
   return frames.done() - std::min(frames.done(), frames.cached());
 }
 
-// Visible columns of a line: bytes that are no continuation of a character.
 std::string Cut(const std::string& line, int width) {
-  return line.size() <= static_cast<size_t>(width)
-             ? line
-             : line.substr(0, static_cast<size_t>(std::max(0, width)));
+  return FirstCharacters(line, static_cast<size_t>(std::max(0, width)));
 }
 
 }  // namespace
@@ -80,8 +78,8 @@ std::string FarmView::RateText(double seconds) const {
 }
 
 std::string FarmView::PlainLine(double seconds) const {
-  return job_.name() + ": " + JobStateName(job_.state()) + ", " + CountsText(job_.frames()) +
-         RateText(seconds) + ", " + std::to_string(workers_alive_) +
+  return Printable(job_.name()) + ": " + JobStateName(job_.state()) + ", " +
+         CountsText(job_.frames()) + RateText(seconds) + ", " + std::to_string(workers_alive_) +
          (workers_alive_ == 1 ? " worker" : " workers");
 }
 
@@ -127,8 +125,8 @@ std::vector<std::string> FarmView::Lines(const ViewStyle& style, double seconds)
   const v1::FrameCounts& frames = job_.frames();
   const int width = style.width - 1;
   std::vector<std::string> lines;
-  lines.push_back(Cut(job_.name() + "  job " + job_.id() + "  " + JobStateName(job_.state()) +
-                          "  " + std::to_string(workers_alive_) +
+  lines.push_back(Cut(Printable(job_.name()) + "  job " + job_.id() + "  " +
+                          JobStateName(job_.state()) + "  " + std::to_string(workers_alive_) +
                           (workers_alive_ == 1 ? " worker" : " workers"),
                       width));
   const std::string text = CountsText(frames) + RateText(seconds);
@@ -141,8 +139,8 @@ std::vector<std::string> FarmView::Lines(const ViewStyle& style, double seconds)
   for (const v1::WorkerInfo& worker : workers_) {
     if (worker.state() == v1::WorkerInfo::GONE) continue;
     if (++shown > kMostWorkers) break;
-    std::string line = "  " + worker.id() + "  " + WorkerStateName(worker.state()) + "  " +
-                       std::to_string(worker.frames_done()) + " frames";
+    std::string line = "  " + Printable(worker.id()) + "  " + WorkerStateName(worker.state()) +
+                       "  " + std::to_string(worker.frames_done()) + " frames";
     for (const v1::Holding& held : worker.holding()) {
       line +=
           held.job_id() == job_.id() ? "  frame " + std::to_string(held.frame()) : "  another job";

@@ -7,22 +7,31 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 
 #include "client/files.h"
 #include "client/manifest.h"
+#include "engine/base/frame_set.h"
 
 namespace fjord {
 
 class FrameFolder {
  public:
-  // `head` says what is being made; frames of an earlier manifest of the same scene are taken over.
-  // A folder with frames of a scene of another name is refused: its manifest would be lost.
-  // `ending` is that of the frames' files.
-  static Result<std::unique_ptr<FrameFolder>> Open(const std::string& folder, Manifest head,
-                                                   std::string ending);
+  struct Order {
+    std::string folder;
+    Manifest head;       // what is being made
+    std::string ending;  // of the frames' files
+    bool replace = false;
+    // The key that a frame has now; empty: it has none. Asked about frames of another version.
+    std::function<Result<std::string>(uint32_t frame)> key_of;
+  };
+  // Frames of an earlier manifest are taken over where they are what would be made now. kInvalid
+  // where the folder holds frames of a scene of another name, or, unless `replace`, of another
+  // version of this scene, or pictures that no manifest names.
+  static Result<std::unique_ptr<FrameFolder>> Open(Order order);
 
   // Is this frame there, made under this key, its file's pixels those of the manifest?
   // `pixel_digest` asks for more: it must be these pixels (empty: any).
@@ -39,6 +48,9 @@ class FrameFolder {
 
  private:
   FrameFolder(std::string folder, FolderLock lock, Manifest manifest, std::string ending);
+  Result<> TakeOver(const Order& order);
+  Result<> TakeOverVersion(const Order& order, const Manifest& earlier);
+  FrameSet PicturesHere() const;
   Result<> WriteManifest();  // with mutex_ held
 
   const std::string folder_;
@@ -47,7 +59,6 @@ class FrameFolder {
   std::mutex mutex_;
   // Guarded by mutex_.
   Manifest manifest_;
-  Manifest earlier_;  // of another scene: its frames count only after Has() has seen their key
   bool stale_ = true;
   std::chrono::steady_clock::time_point written_;
 };

@@ -1,6 +1,7 @@
 #include "client/job_text.h"
 
 #include "client/exit_code.h"
+#include "engine/base/printable.h"
 
 namespace fjord {
 
@@ -96,6 +97,13 @@ nlohmann::ordered_json WorkerJson(const v1::WorkerInfo& worker) {
           {"holding", std::move(holding)},
           {"frames_done", worker.frames_done()},
           {"render_ms", worker.render_ms()}};
+}
+
+std::string Column(const std::string& text, size_t width) {
+  std::string column = Printable(text);
+  const size_t characters = CharactersIn(column);
+  if (characters < width) column.append(width - characters, ' ');
+  return column;
 }
 
 std::string CountsText(const v1::FrameCounts& frames) {

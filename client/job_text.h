@@ -20,6 +20,9 @@ int ExitCodeOfJob(v1::JobState state);
 nlohmann::ordered_json JobJson(const v1::Job& job);
 nlohmann::ordered_json WorkerJson(const v1::WorkerInfo& worker);
 
+// Printable, and padded to so many characters.
+std::string Column(const std::string& text, size_t width);
+
 // "37 of 96 frames, 5 cached, 2 running, 1 failed".
 std::string CountsText(const v1::FrameCounts& frames);
 

@@ -2,12 +2,14 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdio>
 #include <deque>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
 
+#include "client/frame_watch.h"
 #include "engine/animation/frame_key.h"
 #include "engine/base/parallel.h"
 #include "engine/image/codec.h"
@@ -17,6 +19,12 @@ namespace fjord {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+std::string SecondsText(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g s", seconds);
+  return text;
+}
 
 struct FinishedFrame {
   uint32_t number = 0;
@@ -100,6 +108,22 @@ class FrameWriter {
   std::thread thread_;  // last: starts when the rest is there
 };
 
+Result<RenderedFrame> RenderInTime(const v1::FrameScene& frame, uint32_t number,
+                                   const LocalRenderJob& job, RenderOptions options) {
+  if (job.frame_seconds <= 0) {
+    options.cancel = job.cancel;
+    return RenderFrame(frame, options);
+  }
+  const FrameWatch watch(job.cancel, job.frame_seconds);
+  options.cancel = &watch.stop();
+  Result<RenderedFrame> rendered = RenderFrame(frame, options);
+  if (rendered.ok() || !watch.time_is_over()) return rendered;
+  return MakeError(ErrorCode::kLimit, "frame " + std::to_string(number) + " took longer than its " +
+                                          SecondsText(job.frame_seconds) +
+                                          " (--frame-time-limit); give it more time, or make less "
+                                          "of it, as with a larger epsilon or pixels");
+}
+
 Result<> RenderFrames(const LocalRenderJob& job, FrameFolder* folder, FrameProgress* progress,
                       LocalRenderReport* report) {
   const int threads = job.threads > 0 ? job.threads : HardwareThreads();
@@ -107,9 +131,9 @@ Result<> RenderFrames(const LocalRenderJob& job, FrameFolder* folder, FrameProgr
   if (threads > 1) writer.emplace(folder, progress);
   RenderOptions options;
   options.threads = threads;
-  options.cancel = job.cancel;
   options.progress = [progress](double share) { progress->Share(share); };
-  for (uint32_t number = job.first; number <= job.last; ++number) {
+  for (uint32_t index = 0; index < job.frames.size(); ++index) {
+    const uint32_t number = job.frames[index];
     if (job.cancel != nullptr && job.cancel->load())
       return MakeError(ErrorCode::kCancelled, "interrupted");
     AssetSet assets;
@@ -127,7 +151,7 @@ Result<> RenderFrames(const LocalRenderJob& job, FrameFolder* folder, FrameProgr
     }
     const auto start = Clock::now();
     options.assets = &assets;
-    Result<RenderedFrame> rendered = RenderFrame(*frame, options);
+    Result<RenderedFrame> rendered = RenderInTime(*frame, number, job, options);
     if (!rendered.ok()) return rendered.error();
     const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start);
     Result<PictureInfo> info = DescribeFrame(*frame);

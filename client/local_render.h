@@ -10,15 +10,16 @@
 #include "client/frame_folder.h"
 #include "client/progress.h"
 #include "engine/animation/inbetween.h"
+#include "engine/base/frame_set.h"
 
 namespace fjord {
 
 struct LocalRenderJob {
   std::shared_ptr<const Animation> animation;
-  uint32_t first = 0;
-  uint32_t last = 0;
+  FrameSet frames;
   int threads = 0;  // on one frame; 0: one a core
   const std::atomic<bool>* cancel = nullptr;
+  double frame_seconds = 0;  // that one frame may take; 0: any time
   // Asked before a frame is rendered; an error ends the job. May be empty.
   std::function<Result<>(const v1::FrameScene& frame, const AssetResolver* assets, uint32_t number)>
       allow = {};
@@ -30,8 +31,8 @@ struct LocalRenderReport {
   uint64_t triangles_made = 0;  // RenderStats
 };
 
-// kCancelled when the flag is set: what was finished is written and named in the manifest. `report`
-// is filled in either way.
+// kLimit where a frame takes longer than it may. kCancelled when the flag is set: what was finished
+// is written and named in the manifest. `report` is filled in either way.
 Result<> RenderLocally(const LocalRenderJob& job, FrameFolder* folder, FrameProgress* progress,
                        LocalRenderReport* report);
 

@@ -9,19 +9,11 @@
 #include <cstring>
 #include <filesystem>
 
-#include "client/files.h"
 #include "client/pixels.h"
 #include "client/process.h"
-#include "engine/image/codec.h"
 
 namespace fjord {
 namespace {
-
-Result<Picture> ReadPicture(const std::string& file) {
-  const Result<std::string> bytes = ReadFile(file);
-  if (!bytes.ok()) return bytes.error();
-  return DecodePicture(*bytes, file);
-}
 
 Result<> WriteAll(int fd, const std::vector<uint8_t>& bytes) {
   for (size_t done = 0; done < bytes.size();) {
@@ -33,18 +25,18 @@ Result<> WriteAll(int fd, const std::vector<uint8_t>& bytes) {
   return Ok{};
 }
 
-Result<> SendFrames(const std::vector<std::string>& files, const Picture& first, int fd,
+Result<> SendFrames(const std::vector<ListedFrame>& frames, const Picture& first, int fd,
                     const std::atomic<bool>* cancel) {
-  for (size_t i = 0; i < files.size(); ++i) {
+  for (size_t i = 0; i < frames.size(); ++i) {
     if (cancel != nullptr && cancel->load()) return MakeError(ErrorCode::kCancelled, "interrupted");
-    Result<Picture> picture = i == 0 ? Result<Picture>(first) : ReadPicture(files[i]);
+    Result<Picture> picture = i == 0 ? Result<Picture>(first) : ReadFrame(frames[i]);
     if (!picture.ok()) return picture.error();
     if (picture->width != first.width || picture->height != first.height) {
       return Invalid("the picture is " + std::to_string(picture->width) + "x" +
                          std::to_string(picture->height) + ", the first one " +
                          std::to_string(first.width) + "x" + std::to_string(first.height) +
                          "; a movie needs one size",
-                     {files[i], 0, 0});
+                     {frames[i].file, 0, 0});
     }
     if (Result<> sent = WriteAll(fd, DisplaySamples(*picture)); !sent.ok()) return sent;
   }
@@ -67,10 +59,10 @@ std::vector<std::string> FfmpegCommand(const Picture& first, double rate,
 
 }  // namespace
 
-Result<> MakeMovie(const std::vector<std::string>& files, double rate, const std::string& output,
+Result<> MakeMovie(const std::vector<ListedFrame>& frames, double rate, const std::string& output,
                    const std::atomic<bool>* cancel) {
-  if (files.empty()) return Invalid("there are no pictures for a movie");
-  const Result<Picture> first = ReadPicture(files.front());
+  if (frames.empty()) return Invalid("there are no pictures for a movie");
+  const Result<Picture> first = ReadFrame(frames.front());
   if (!first.ok()) return first.error();
   const std::string partial = output + ".partial.tmp";
   // Found out here, because ffmpeg says it less plainly.
@@ -92,7 +84,7 @@ Result<> MakeMovie(const std::vector<std::string>& files, double rate, const std
                        child.error().message + "; install it: apt-get install ffmpeg");
     close(pipe->write_end);
   } else {
-    result = SendFrames(files, *first, pipe->write_end, cancel);
+    result = SendFrames(frames, *first, pipe->write_end, cancel);
     close(pipe->write_end);
     const int status = WaitForChild(*child);
     if (status != 0 && (result.ok() || result.error().code == ErrorCode::kIo)) {

@@ -7,12 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "client/frame_list.h"
 #include "engine/base/result.h"
 
 namespace fjord {
 
 // H.264, yuv420p, crf 16. `output` appears when it is complete. kCancelled when the flag is set.
-Result<> MakeMovie(const std::vector<std::string>& files, double rate, const std::string& output,
+Result<> MakeMovie(const std::vector<ListedFrame>& frames, double rate, const std::string& output,
                    const std::atomic<bool>* cancel);
 
 }  // namespace fjord

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "client/console.h"
+#include "engine/base/printable.h"
 
 namespace fjord {
 namespace {
@@ -45,7 +46,7 @@ FrameProgress::Outlet FrameProgress::Console() {
 }
 
 FrameProgress::FrameProgress(std::string name, uint64_t total, Outlet outlet, MonotonicNow now)
-    : name_(std::move(name)),
+    : name_(Printable(name)),
       total_(total),
       outlet_(std::move(outlet)),
       now_(std::move(now)),
@@ -101,13 +102,11 @@ std::string FrameProgress::Line(double elapsed) const {
   if (!outlet_.terminal) return name_ + ": " + text;
   const double share =
       total_ == 0 ? 1 : (static_cast<double>(finished) + share_) / static_cast<double>(total_);
-  const int room = outlet_.width - 1 - static_cast<int>(name_.size() + text.size()) - 4;
+  const int room = outlet_.width - 1 - static_cast<int>(CharactersIn(name_) + text.size()) - 4;
   std::string line = name_ + "  ";
   if (room >= 10) line += FormatBar(share, std::min(room, 40)) + "  ";
   line += text;
-  if (line.size() >= static_cast<size_t>(outlet_.width))
-    line.resize(static_cast<size_t>(std::max(1, outlet_.width - 1)));
-  return line;
+  return FirstCharacters(line, static_cast<size_t>(std::max(1, outlet_.width - 1)));
 }
 
 }  // namespace fjord

@@ -42,6 +42,8 @@ Error ErrorOfStatus(const grpc::Status& status, const std::string& address) {
     case grpc::StatusCode::ALREADY_EXISTS:
     case grpc::StatusCode::OUT_OF_RANGE:
       return MakeError(ErrorCode::kInvalid, server + ": " + said);
+    case grpc::StatusCode::DATA_LOSS:
+      return MakeError(ErrorCode::kIo, server + ": " + said);
     case grpc::StatusCode::RESOURCE_EXHAUSTED:
       return MakeError(ErrorCode::kLimit, server + ": " + said);
     case grpc::StatusCode::CANCELLED:

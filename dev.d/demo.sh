@@ -43,7 +43,7 @@ export FJORD_SERVER=$address
 echo "a farm of one coordinator and two workers listens on $address (log: $farm_log)" >&2
 job=$("$FJORD" submit "$scene" --project demo)
 "$FJORD" watch "$job"
-"$FJORD" fetch "$job" -o "$out"
+"$FJORD" fetch "$job" -o "$out" --replace
 "$FJORD" movie "$out" -o "$out/taiwan-rising.mp4"
 "$FJORD" sheet "$out" -o "$out/contact-sheet.png" --columns 8
 cat <<DONE

@@ -23,6 +23,7 @@ namespace {
 struct Options {
   std::vector<std::string> files;
   std::string budget;
+  SceneChanges changes;
   bool animation = false;
   bool json = false;
 };
@@ -98,12 +99,13 @@ Json EstimateJson(const ObjectEstimate& estimate) {
 
 // What the largest of some frames will make, by estimate; an error where that is too much.
 Errors CheckCost(const std::string& path, const Animation& animation, const Options& options,
-                 Json* found) {
+                 const std::vector<Setting>& settings, Json* found) {
   const Result<double> budget = ParseBudget(options.budget, kFrameBudget);
   if (!budget.ok()) return {budget.error()};
   FrameEstimate worst;
-  const Result<> held = CheckBudget(animation, {animation.first_frame(), animation.last_frame()},
-                                    *budget, Counted::kInView, {path, {}}, &worst);
+  const Result<> held =
+      CheckBudget(animation, FrameSet(animation.first_frame(), animation.last_frame()), *budget,
+                  Counted::kInView, {path, settings}, &worst);
   *found = EstimateJson(worst.all);
   Json objects = Json::array();
   for (size_t i = 0; i < worst.objects.size(); ++i) {
@@ -127,9 +129,12 @@ struct Found {
 };
 
 Errors CheckScene(const std::string& path, const Options& options, Found* found) {
+  const Result<std::vector<Setting>> settings = SettingsOf(options.changes, path);
+  if (!settings.ok()) return {settings.error()};
   OpenedScene scene;
-  Errors errors = OpenScene(path, {}, &scene);
-  if (errors.empty()) errors = CheckCost(path, *scene.animation, options, &found->estimate);
+  Errors errors = OpenScene(path, *settings, &scene);
+  if (errors.empty())
+    errors = CheckCost(path, *scene.animation, options, *settings, &found->estimate);
   if (!errors.empty() || !options.animation) return errors;
   return CheckMotion(path, *scene.animation, options.json, &found->motion);
 }
@@ -138,6 +143,14 @@ Errors CheckFile(const std::string& path, const Options& options, Found* found) 
   if (path.ends_with(".par")) return CheckParameters(path);
   if (ShapeFormatOf(path).ok()) return CheckShape(path);
   return CheckScene(path, options, found);
+}
+
+// A line a defect: what `check` is asked for, so it goes to standard output.
+std::string ReportOf(const std::string& path, const Errors& errors) {
+  if (errors.empty()) return path + ": good\n";
+  std::string report;
+  for (const Error& error : errors) report += error.ToString() + "\n";
+  return report;
 }
 
 int RunCheck(const Options& options) {
@@ -153,12 +166,13 @@ int RunCheck(const Options& options) {
       code = kExitFailed;
       defects.push_back(
           {{"line", error.place.line}, {"column", error.place.column}, {"message", error.message}});
-      if (!options.json) console::Fail(error);
     }
     list.push_back({{"file", path}, {"good", errors.empty()}, {"defects", std::move(defects)}});
     if (!found.estimate.is_null()) list.back()["estimate"] = std::move(found.estimate);
     if (options.animation) list.back()["animation"] = std::move(found.motion);
-    if (errors.empty() && !options.json) console::Note(path + ": good");
+    if (options.json) continue;
+    const Result<> printed = console::Print(ReportOf(path, errors));
+    if (!printed.ok()) return console::Fail(printed.error());
   }
   if (options.json) {
     const Result<> printed =
@@ -179,13 +193,15 @@ void AddCheck(CLI::App& app, Run* run) {
   command->add_flag("--animation", options->animation,
                     "Make every frame's shapes too: the same vertices in each, and no jumps");
   AddBudget(command, &options->budget);
+  AddSceneChanges(command, &options->changes);
   command->add_flag("--json", options->json, "A list as JSON on standard output");
   command->footer(
-      "A defect is a line FILE:LINE:COLUMN: error: what is wrong. Exit code 1 where there is "
-      "one.\n\n"
+      "A defect is a line FILE:LINE:COLUMN: error: what is wrong, on standard output. Exit code 1 "
+      "where there is one.\n\n"
       "Examples:\n"
       "  fjord check examples/*.scene\n"
       "  fjord check --animation examples/taiwan-rising.scene\n"
+      "  fjord check island.scene --set objects[island].fractal.pixels=1\n"
       "  fjord check coast.std");
   command->callback([options, run] { *run = [options] { return RunCheck(*options); }; });
 }

@@ -1,6 +1,8 @@
 #include "client/commands/common.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -18,34 +20,59 @@ bool ParseNumber(std::string_view text, uint32_t* number) {
 
 Error Usage(std::string message) { return MakeError(ErrorCode::kUsage, std::move(message)); }
 
+uint32_t ShareOf(uint32_t whole, double share) {
+  return static_cast<uint32_t>(std::clamp(std::round(whole * share), 1., 1e6));
+}
+
 }  // namespace
 
-Result<FrameRange> ParseFrameRange(const std::string& text) {
-  if (text.empty()) return FrameRange{};
-  const std::string_view view(text);
-  const size_t dash = view.find('-');
-  FrameRange range;
-  const bool good = dash == std::string_view::npos
-                        ? ParseNumber(view, &range.first)
-                        : ParseNumber(view.substr(0, dash), &range.first) &&
-                              ParseNumber(view.substr(dash + 1), &range.last);
-  if (dash == std::string_view::npos) range.last = range.first;
-  if (!good || range.first == 0 || range.last < range.first) {
-    return Usage("--frames " + text +
-                 ": write one frame (7) or a range (1-48); frames count from 1");
-  }
-  return range;
+Result<FrameSet> ParseFrames(const std::string& text) {
+  if (text.empty()) return FrameSet();
+  Result<FrameSet> frames = FrameSet::Parse(text);
+  if (!frames.ok()) return Usage("--frames " + frames.error().message);
+  return frames;
+}
+
+void AddFrames(CLI::App* command, std::string* frames) {
+  command->add_option("--frames", *frames, "Frames, as 7, 1-48 or 1-10,12,20-40x2; default all");
 }
 
 Result<PictureSize> ParseSize(const std::string& text) {
+  const auto wrong = [&] {
+    return Usage("--size " + text +
+                 ": write width and height in pixels, as 960x540, or a share "
+                 "of the scene's, as 50%");
+  };
+  PictureSize size;
+  if (text.ends_with('%')) {
+    const char* const end = text.data() + text.size() - 1;
+    const auto [stopped, error] = std::from_chars(text.data(), end, size.share);
+    if (error != std::errc() || stopped != end || !(size.share > 0) || size.share > 1e6)
+      return wrong();
+    size.share /= 100;
+    return size;
+  }
   const std::string_view view(text);
   const size_t times = view.find('x');
-  PictureSize size;
   if (times == std::string_view::npos || !ParseNumber(view.substr(0, times), &size.width) ||
       !ParseNumber(view.substr(times + 1), &size.height) || size.width == 0 || size.height == 0) {
-    return Usage("--size " + text + ": write width and height in pixels, as 960x540");
+    return wrong();
   }
   return size;
+}
+
+void AddSets(CLI::App* command, SceneChanges* changes) {
+  command
+      ->add_option("--set", changes->sets, "path=value, instead of what the scene says; repeatable")
+      ->allow_extra_args(false);
+}
+
+void AddSceneChanges(CLI::App* command, SceneChanges* changes) {
+  AddSets(command, changes);
+  command->add_option("--size", changes->size,
+                      "Picture size instead of the scene's, as 960x540, or of it, as 50%");
+  command->add_option("--samples", changes->samples, "Samples a pixel instead of the scene's")
+      ->check(CLI::IsMember({1, 4, 16}));
 }
 
 Result<std::vector<Setting>> ParseSettings(const std::vector<std::string>& texts) {
@@ -59,29 +86,35 @@ Result<std::vector<Setting>> ParseSettings(const std::vector<std::string>& texts
   return settings;
 }
 
-Result<FrameRange> WithinAnimation(FrameRange range, uint32_t first, uint32_t last,
-                                   const std::string& scene_file) {
-  if (range.first == 0) return FrameRange{first, last};
-  if (range.first < first || range.last > last) {
-    const std::string asked =
-        range.first == range.last
-            ? "frame " + std::to_string(range.first) + " is"
-            : "frames " + std::to_string(range.first) + "-" + std::to_string(range.last) + " are";
+Result<FrameSet> WithinAnimation(const FrameSet& frames, uint32_t first, uint32_t last,
+                                 const std::string& scene_file) {
+  if (frames.empty()) return FrameSet(first, last);
+  if (frames.first() < first || frames.last() > last) {
+    const std::string asked = (frames.size() == 1 ? "frame " : "frames ") + frames.ToString(8) +
+                              (frames.size() == 1 ? " is" : " are");
     return Invalid(asked + " asked for, the animation has " + std::to_string(first) + "-" +
                        std::to_string(last) + "; ask for others, or change output.frames",
                    {scene_file, 0, 0});
   }
-  return range;
+  return frames;
 }
 
-Result<std::vector<Setting>> SettingsOf(const std::vector<std::string>& sets,
-                                        const std::string& size) {
-  Result<std::vector<Setting>> settings = ParseSettings(sets);
-  if (!settings.ok() || size.empty()) return settings;
-  const Result<PictureSize> parsed = ParseSize(size);
-  if (!parsed.ok()) return parsed.error();
-  settings->push_back({"output.width", std::to_string(parsed->width)});
-  settings->push_back({"output.height", std::to_string(parsed->height)});
+Result<std::vector<Setting>> SettingsOf(const SceneChanges& changes,
+                                        const std::string& scene_file) {
+  Result<std::vector<Setting>> settings = ParseSettings(changes.sets);
+  if (!settings.ok()) return settings;
+  if (changes.samples > 0) settings->push_back({"output.samples", std::to_string(changes.samples)});
+  if (changes.size.empty()) return settings;
+  Result<PictureSize> size = ParseSize(changes.size);
+  if (!size.ok()) return size.error();
+  if (size->share > 0) {
+    const LoadResult loaded = LoadSceneFile(scene_file, *settings);
+    if (!loaded.ok()) return settings;
+    size->width = ShareOf(loaded.loaded.scene.output().width(), size->share);
+    size->height = ShareOf(loaded.loaded.scene.output().height(), size->share);
+  }
+  settings->push_back({"output.width", std::to_string(size->width)});
+  settings->push_back({"output.height", std::to_string(size->height)});
   return settings;
 }
 

@@ -26,7 +26,7 @@ struct Options {
   uint32_t frame = 0;
   std::string output;
   std::string object;
-  std::vector<std::string> sets;
+  SceneChanges changes;
   std::string budget;
   uint64_t max_points = WeldLimits().max_points;
 };
@@ -110,7 +110,7 @@ Result<> CheckObject(const Options& options, const v1::Scene& scene) {
 int RunFractalize(const Options& options) {
   const Result<ShapeFormat> format = ShapeFormatOf(options.output);
   if (!format.ok()) return console::Fail(format.error());
-  const Result<std::vector<Setting>> settings = ParseSettings(options.sets);
+  const Result<std::vector<Setting>> settings = SettingsOf(options.changes, options.scene);
   if (!settings.ok()) return console::Fail(settings.error());
   const Result<double> budget = ParseBudget(options.budget, kWeldBudget);
   if (!budget.ok()) return console::Fail(budget.error());
@@ -119,10 +119,10 @@ int RunFractalize(const Options& options) {
     return console::Fail(errors);
   if (const Result<> named = CheckObject(options, scene.animation->scene()); !named.ok())
     return console::Fail(named.error());
-  const Result<FrameRange> range =
-      WithinAnimation({options.frame, options.frame}, scene.animation->first_frame(),
+  const Result<FrameSet> within =
+      WithinAnimation(FrameSet(options.frame, options.frame), scene.animation->first_frame(),
                       scene.animation->last_frame(), options.scene);
-  if (!range.ok()) return console::Fail(range.error());
+  if (!within.ok()) return console::Fail(within.error());
 
   AssetSet assets;
   const Result<v1::FrameScene> frame = scene.animation->Inbetween(options.frame, &assets);
@@ -167,9 +167,7 @@ void AddFractalize(CLI::App& app, Run* run) {
   command->add_option("--max-points", options->max_points, "Give up beyond so many points")
       ->capture_default_str();
   AddBudget(command, &options->budget, "1e8");
-  command
-      ->add_option("--set", options->sets, "path=value, instead of what the scene says; repeatable")
-      ->allow_extra_args(false);
+  AddSets(command, &options->changes);
   command->footer(
       "Seed and every parameter are in the file's comment lines.\n\n"
       "Examples:\n"

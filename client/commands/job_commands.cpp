@@ -7,7 +7,9 @@
 #include "client/console.h"
 #include "client/exit_code.h"
 #include "client/farm_client.h"
+#include "client/find_job.h"
 #include "client/job_text.h"
+#include "engine/base/printable.h"
 
 namespace fjord {
 namespace {
@@ -22,9 +24,14 @@ int RunCommand(const Options& options, v1::CommandRequest::Kind kind) {
   FarmClient client(options.farm.server);
   int code = kExitDone;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const std::string& id : options.jobs) {
+  for (const std::string& named : options.jobs) {
+    const Result<std::string> id = FindJob(client, named);
+    if (!id.ok()) {
+      code = console::Fail(id.error());
+      continue;
+    }
     v1::CommandRequest request;
-    request.set_job_id(id);
+    request.set_job_id(*id);
     request.set_kind(kind);
     request.set_priority(options.priority);
     const Result<v1::Job> job = client.Command(request);
@@ -34,7 +41,8 @@ int RunCommand(const Options& options, v1::CommandRequest::Kind kind) {
     }
     list.push_back(JobJson(*job));
     if (!options.farm.json)
-      console::Note(job->name() + "  job " + job->id() + "  " + JobStateName(job->state()));
+      console::Note(Printable(job->name()) + "  job " + job->id() + "  " +
+                    JobStateName(job->state()));
   }
   if (options.farm.json) {
     const Result<> printed = console::Print((list.size() == 1 ? list[0] : list).dump(1) + "\n");
@@ -49,12 +57,14 @@ void AddOne(CLI::App& app, Run* run, const std::string& name, const std::string&
   const auto options = std::make_shared<Options>();
   if (kind == v1::CommandRequest::PRIORITY) {
     options->jobs.resize(1);
-    command->add_option("JOB", options->jobs[0], "Job id, as submit prints it")->required();
+    command->add_option("JOB", options->jobs[0], "Job id, as submit prints it, or name")
+        ->required();
     command->add_option("NUMBER", options->priority, "Higher goes first; -1000..1000")
         ->required()
         ->check(CLI::Range(-1000, 1000));
   } else {
-    command->add_option("JOB", options->jobs, "Job ids, as submit prints them")->required();
+    command->add_option("JOB", options->jobs, "Job ids, as submit prints them, or names")
+        ->required();
   }
   AddFarmOptions(command, &options->farm);
   command->footer("Examples:\n" + examples);

@@ -21,10 +21,10 @@ int RunJobs(const FarmOptions& options) {
   std::string text;
   for (const v1::Job& job : *jobs) {
     list.push_back(JobJson(job));
-    char head[160];
-    std::snprintf(head, sizeof head, "%-14s %-10s %5d  %-24s ", job.id().c_str(),
-                  JobStateName(job.state()), job.priority(), job.name().c_str());
-    text += head + CountsText(job.frames()) + "\n";
+    char priority[16];
+    std::snprintf(priority, sizeof priority, "%5d", job.priority());
+    text += Column(job.id(), 14) + " " + Column(JobStateName(job.state()), 10) + " " + priority +
+            "  " + Column(job.name(), 24) + " " + CountsText(job.frames()) + "\n";
   }
   if (text.empty()) console::Note("no jobs");
   const Result<> printed = console::Print(options.json ? list.dump(1) + "\n" : text);

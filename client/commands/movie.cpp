@@ -8,11 +8,12 @@
 
 #include "client/commands/commands.h"
 #include "client/commands/farm_options.h"
+#include "client/commands/frame_choice.h"
 #include "client/console.h"
 #include "client/exit_code.h"
 #include "client/farm_client.h"
 #include "client/fetch_job.h"
-#include "client/frame_list.h"
+#include "client/find_job.h"
 #include "client/interrupt.h"
 
 namespace fjord {
@@ -25,6 +26,7 @@ struct Options {
   std::string source;
   std::string output;
   double rate = 0;
+  FrameChoiceOptions choice;
 };
 
 // A folder that goes away with its frames.
@@ -44,13 +46,13 @@ class ScratchFolder {
   std::string path_;
 };
 
-int MovieOfFolder(const Options& options, const std::string& folder) {
-  const Result<FrameList> frames = FramesOf(folder);
+int MovieOfFolder(const Options& options, const FrameChoice& choice, const std::string& folder) {
+  const Result<FrameList> frames = FramesOf(folder, choice);
   if (!frames.ok()) return console::Fail(frames.error());
   const double rate = options.rate > 0 ? options.rate : frames->rate;
-  const Result<> made = MakeMovie(frames->files, rate, options.output, &CatchInterrupts());
+  const Result<> made = MakeMovie(frames->frames, rate, options.output, &CatchInterrupts());
   if (!made.ok()) return console::Fail(made.error());
-  console::Note(std::to_string(frames->files.size()) + " frames in " + options.output);
+  console::Note(std::to_string(frames->frames.size()) + " frames in " + options.output);
   return kExitDone;
 }
 
@@ -58,8 +60,11 @@ int RunMovie(const Options& options) {
   if (!options.output.ends_with(".mp4"))
     return console::Fail(
         MakeError(ErrorCode::kUsage, "-o " + options.output + ": a movie is an .mp4 file"));
+  const Result<FrameChoice> choice = options.choice.Read();
+  if (!choice.ok()) return console::Fail(choice.error());
   std::error_code error;
-  if (fs::is_directory(options.source, error)) return MovieOfFolder(options, options.source);
+  if (fs::is_directory(options.source, error))
+    return MovieOfFolder(options, *choice, options.source);
   if (options.source.find('/') != std::string::npos) {
     return console::Fail(
         MakeError(ErrorCode::kNotFound, "there is no such folder", {options.source, 0, 0}));
@@ -68,17 +73,18 @@ int RunMovie(const Options& options) {
   if (scratch.path().empty())
     return console::Fail(MakeError(ErrorCode::kIo, "no temporary folder can be made"));
   FarmClient client(options.farm.server);
+  const Result<std::string> job = FindJob(client, options.source);
+  if (!job.ok()) return console::Fail(job.error());
   const Result<FetchReport> report =
-      FetchJob(client, options.source, scratch.path(), &CatchInterrupts());
+      FetchJob(client, {*job, scratch.path(), choice->frames, false}, &CatchInterrupts());
   if (!report.ok()) return console::Fail(report.error());
-  if (report->missing > 0) {
-    return console::Fail(
-        MakeError(ErrorCode::kNotFound, std::to_string(report->missing) +
-                                            " frames of the job are not done yet; wait "
-                                            "for it with fjord watch " +
-                                            options.source));
+  if (!choice->allow_missing) {
+    if (const Result<> whole = RequireAll(*report, *job); !whole.ok())
+      return console::Fail(whole.error());
   }
-  return MovieOfFolder(options, scratch.path());
+  FrameChoice all = *choice;
+  all.frames = report->frames;
+  return MovieOfFolder(options, all, scratch.path());
 }
 
 }  // namespace
@@ -91,6 +97,7 @@ void AddMovie(CLI::App& app, Run* run) {
   command->add_option("-o,--output", options->output, "The movie, an .mp4 file")->required();
   command->add_option("--rate", options->rate, "Frames a second; default the scene's")
       ->check(CLI::Range(.01, 1000.));
+  AddFrameChoice(command, &options->choice);
   AddServer(command, &options->farm);
   command->footer(
       "Needs the program ffmpeg. H.264, 4:2:0, of high quality (crf 16).\n\n"

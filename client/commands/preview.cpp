@@ -19,9 +19,8 @@ struct Options {
   std::string scene;
   uint32_t frame = 1;
   std::string output;
-  std::string size;
   size_t edges = kWireframeCap;
-  std::vector<std::string> sets;
+  SceneChanges changes;
 };
 
 struct Drawn {
@@ -47,15 +46,15 @@ int RunPreview(const Options& options) {
     return console::Fail(MakeError(
         ErrorCode::kUsage, "-o " + options.output + ": a preview is a .png or an .svg file"));
   }
-  const Result<std::vector<Setting>> settings = SettingsOf(options.sets, options.size);
+  const Result<std::vector<Setting>> settings = SettingsOf(options.changes, options.scene);
   if (!settings.ok()) return console::Fail(settings.error());
   OpenedScene scene;
   if (const Errors errors = OpenScene(options.scene, *settings, &scene); !errors.empty())
     return console::Fail(errors);
-  const Result<FrameRange> range =
-      WithinAnimation({options.frame, options.frame}, scene.animation->first_frame(),
+  const Result<FrameSet> within =
+      WithinAnimation(FrameSet(options.frame, options.frame), scene.animation->first_frame(),
                       scene.animation->last_frame(), options.scene);
-  if (!range.ok()) return console::Fail(range.error());
+  if (!within.ok()) return console::Fail(within.error());
   AssetSet assets;
   const Result<v1::FrameScene> frame = scene.animation->Inbetween(options.frame, &assets);
   if (!frame.ok()) return console::Fail(InScene(frame.error(), options.scene));
@@ -86,14 +85,11 @@ void AddPreview(CLI::App& app, Run* run) {
       ->required()
       ->check(CLI::Range(1u, 1000000u));
   command->add_option("-o,--output", options->output, "A .png or .svg file")->required();
-  command->add_option("--size", options->size, "Picture size instead of the scene's, as 960x540");
   command
       ->add_option("--edges", options->edges, "Draw no more edges than this; coarser where needed")
       ->capture_default_str()
       ->check(CLI::Range(size_t{100}, size_t{100000000}));
-  command
-      ->add_option("--set", options->sets, "path=value, instead of what the scene says; repeatable")
-      ->allow_extra_args(false);
+  AddSceneChanges(command, &options->changes);
   command->footer(
       "Examples:\n"
       "  fjord preview examples/taiwan-rising.scene --frame 48 -o look.png\n"

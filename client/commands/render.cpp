@@ -12,6 +12,7 @@
 #include "client/frame_folder.h"
 #include "client/interrupt.h"
 #include "client/local_render.h"
+#include "engine/animation/frame_key.h"
 #include "engine/image/picture.h"
 
 namespace fjord {
@@ -21,20 +22,25 @@ struct Options {
   std::string scene;
   std::string folder;
   std::string frames;
-  std::string size;
-  std::vector<std::string> sets;
+  SceneChanges changes;
   std::string budget;
   int threads = 0;
+  double time_limit = 0;  // seconds a frame; 0: none
+  bool replace = false;
   bool json = false;
 };
 
-int Report(const Options& options, const LocalRenderReport& report, const FrameRange& range,
+int Report(const Options& options, const LocalRenderReport& report, const FrameSet& frames,
            double seconds) {
   if (options.json) {
     const nlohmann::ordered_json json = {
-        {"folder", options.folder}, {"first", range.first},
-        {"last", range.last},       {"rendered", report.rendered},
-        {"kept", report.kept},      {"triangles_made", report.triangles_made},
+        {"folder", options.folder},
+        {"first", frames.first()},
+        {"last", frames.last()},
+        {"frames", frames.ToString()},
+        {"rendered", report.rendered},
+        {"kept", report.kept},
+        {"triangles_made", report.triangles_made},
         {"seconds", seconds},
     };
     const Result<> printed = console::Print(json.dump(1) + "\n");
@@ -46,10 +52,21 @@ int Report(const Options& options, const LocalRenderReport& report, const FrameR
   return kExitDone;
 }
 
+// Empty where the animation has no such frame.
+Result<std::string> KeyNow(const Animation& animation, uint32_t frame) {
+  if (frame < animation.first_frame() || frame > animation.last_frame()) return std::string();
+  AssetSet assets;
+  const Result<v1::FrameScene> scene = animation.Inbetween(frame, &assets);
+  if (!scene.ok()) return scene.error();
+  const Result<Digest> key = FrameKey(*scene);
+  if (!key.ok()) return key.error();
+  return key->Hex();
+}
+
 int RunRender(const Options& options) {
-  Result<FrameRange> range = ParseFrameRange(options.frames);
-  if (!range.ok()) return console::Fail(range.error());
-  const Result<std::vector<Setting>> settings = SettingsOf(options.sets, options.size);
+  Result<FrameSet> frames = ParseFrames(options.frames);
+  if (!frames.ok()) return console::Fail(frames.error());
+  const Result<std::vector<Setting>> settings = SettingsOf(options.changes, options.scene);
   if (!settings.ok()) return console::Fail(settings.error());
   const Result<double> budget = ParseBudget(options.budget, kFrameBudget);
   if (!budget.ok()) return console::Fail(budget.error());
@@ -57,32 +74,34 @@ int RunRender(const Options& options) {
   if (const Errors errors = OpenScene(options.scene, *settings, &scene); !errors.empty())
     return console::Fail(errors);
   const Animation& animation = *scene.animation;
-  range = WithinAnimation(*range, animation.first_frame(), animation.last_frame(), options.scene);
-  if (!range.ok()) return console::Fail(range.error());
+  frames = WithinAnimation(*frames, animation.first_frame(), animation.last_frame(), options.scene);
+  if (!frames.ok()) return console::Fail(frames.error());
 
   const SceneOrigin origin{options.scene, *settings};
-  if (const Result<> held = CheckBudget(animation, *range, *budget, Counted::kInView, origin);
+  if (const Result<> held = CheckBudget(animation, *frames, *budget, Counted::kInView, origin);
       !held.ok())
     return console::Fail(held.error());
   const auto format = static_cast<PixelFormat>(animation.scene().output().format());
-  Result<std::unique_ptr<FrameFolder>> folder = FrameFolder::Open(
-      options.folder, DescribeScene(animation.scene(), options.scene, scene.digest),
-      FileEnding(format));
+  FrameFolder::Order order{options.folder,
+                           DescribeScene(animation.scene(), options.scene, scene.digest),
+                           FileEnding(format), options.replace,
+                           [&animation](uint32_t frame) { return KeyNow(animation, frame); }};
+  Result<std::unique_ptr<FrameFolder>> folder = FrameFolder::Open(std::move(order));
   if (!folder.ok()) return console::Fail(folder.error());
 
   const auto start = std::chrono::steady_clock::now();
   LocalRenderReport report;
   const LocalRenderJob job{
       scene.animation,
-      range->first,
-      range->last,
+      *frames,
       options.threads,
       &CatchInterrupts(),
+      options.time_limit,
       [&](const v1::FrameScene& frame, const AssetResolver* assets, uint32_t number) {
         return CheckFrameBudget(animation, frame, assets, number, *budget, Counted::kInView,
                                 origin);
       }};
-  const uint32_t total = range->last - range->first + 1;
+  const uint32_t total = frames->size();
   Result<> rendered;
   {
     FrameProgress progress(animation.scene().name(), total, FrameProgress::Console());
@@ -95,7 +114,7 @@ int RunRender(const Options& options) {
                                        options.folder + ", the same command continues"));
   }
   if (!rendered.ok()) return console::Fail(InScene(rendered.error(), options.scene));
-  return Report(options, report, *range,
+  return Report(options, report, *frames,
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
@@ -107,13 +126,16 @@ void AddRender(CLI::App& app, Run* run) {
   command->add_option("SCENE", options->scene, "Scene file")->required();
   command->add_option("-o,--output", options->folder, "Folder for frames and manifest.json")
       ->required();
-  command->add_option("--frames", options->frames, "One frame or a range, as 1-48; default all");
-  command->add_option("--size", options->size, "Picture size instead of the scene's, as 960x540");
+  AddFrames(command, &options->frames);
   command->add_option("--threads", options->threads, "Threads on one frame; 0: one a core")
       ->check(CLI::Range(0, 1024));
+  AddSceneChanges(command, &options->changes);
   command
-      ->add_option("--set", options->sets, "path=value, instead of what the scene says; repeatable")
-      ->allow_extra_args(false);
+      ->add_option("--frame-time-limit", options->time_limit,
+                   "Seconds that one frame may take; then it is an error")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--replace", options->replace,
+                    "Make frames of an older version of the scene in the folder again");
   AddBudget(command, &options->budget);
   command->add_flag("--json", options->json, "A summary as JSON on standard output");
   command->footer(
@@ -123,6 +145,7 @@ void AddRender(CLI::App& app, Run* run) {
       "Examples:\n"
       "  fjord render examples/taiwan-rising.scene -o out\n"
       "  fjord render island.scene -o out --frames 48 --size 1920x1080\n"
+      "  fjord render island.scene -o small --frames 1-96x8 --size 50% --samples 1\n"
       "  fjord render island.scene -o rough --set objects[island].fractal.H=.3");
   command->callback([options, run] { *run = [options] { return RunRender(*options); }; });
 }

@@ -7,8 +7,10 @@
 #include "client/console.h"
 #include "client/exit_code.h"
 #include "client/farm_client.h"
+#include "client/find_job.h"
 #include "client/job_text.h"
 #include "client/progress.h"
+#include "engine/base/printable.h"
 
 namespace fjord {
 namespace {
@@ -22,10 +24,10 @@ struct Options {
 };
 
 std::string Text(const v1::Job& job, const std::vector<v1::Frame>& frames) {
-  std::string text = job.name() + "  job " + job.id() + "\n";
+  std::string text = Printable(job.name()) + "  job " + job.id() + "\n";
   text += "state     " + std::string(JobStateName(job.state())) + ", priority " +
           std::to_string(job.priority()) +
-          (job.project().empty() ? "" : ", project " + job.project()) + "\n";
+          (job.project().empty() ? "" : ", project " + Printable(job.project())) + "\n";
   text += "frames    " + CountsText(job.frames()) + "\n";
   text += "rendered  " + FormatDuration(static_cast<double>(job.render_ms()) / 1000) +
           " of workers' time\n";
@@ -55,11 +57,13 @@ nlohmann::ordered_json FrameJson(const v1::Frame& frame) {
 
 int RunStatus(const Options& options) {
   FarmClient client(options.farm.server, options.farm.Waiting());
-  const Result<v1::Job> job = client.GetJob(options.job);
+  const Result<std::string> id = FindJob(client, options.job);
+  if (!id.ok()) return console::Fail(id.error());
+  const Result<v1::Job> job = client.GetJob(*id);
   if (!job.ok()) return console::Fail(job.error());
   std::vector<v1::Frame> frames;
   if (options.frames || job->frames().failed() > 0) {
-    Result<std::vector<v1::Frame>> listed = client.ListFrames(options.job);
+    Result<std::vector<v1::Frame>> listed = client.ListFrames(*id);
     if (!listed.ok()) return console::Fail(listed.error());
     frames = std::move(listed).value();
   }
@@ -79,7 +83,7 @@ int RunStatus(const Options& options) {
 void AddStatus(CLI::App& app, Run* run) {
   CLI::App* command = app.add_subcommand("status", "Show how a job stands");
   const auto options = std::make_shared<Options>();
-  command->add_option("JOB", options->job, "Job id, as submit prints it")->required();
+  command->add_option("JOB", options->job, "Job id, as submit prints it, or name")->required();
   command->add_flag("--frames", options->frames, "With --json: every frame, too");
   AddPatience(command, &options->farm);
   AddFarmOptions(command, &options->farm);

@@ -13,6 +13,7 @@
 #include "client/console.h"
 #include "client/exit_code.h"
 #include "client/farm_client.h"
+#include "client/find_job.h"
 #include "client/follow_job.h"
 #include "client/job_text.h"
 #include "engine/base/digest.h"
@@ -25,8 +26,7 @@ struct Options {
   FarmOptions farm;
   std::string scene;
   std::string frames;
-  std::string size;
-  std::vector<std::string> sets;
+  SceneChanges changes;
   int priority = 0;
   std::string project;
   std::string request_id;
@@ -49,7 +49,13 @@ std::string RandomId() {
 }
 
 Result<v1::SubmitResponse> Submit(const Options& options, FarmClient& client, LoadedScene scene,
-                                  const FrameRange& range) {
+                                  const FrameSet& frames) {
+  std::string after;
+  if (!options.after.empty()) {
+    Result<std::string> found = FindJob(client, options.after);
+    if (!found.ok()) return found.error();
+    after = std::move(found).value();
+  }
   const std::string bytes = SerializeScene(scene.scene);
   const std::string digest = Sha256Of(bytes).Hex();
   std::map<std::string, std::string> blobs = std::move(scene.assets);
@@ -59,39 +65,45 @@ Result<v1::SubmitResponse> Submit(const Options& options, FarmClient& client, Lo
   request.set_request_id(options.request_id.empty() ? RandomId() : options.request_id);
   request.set_name(scene.scene.name());
   request.set_scene_digest(digest);
-  request.set_first_frame(range.first);
-  request.set_last_frame(range.last);
+  request.set_first_frame(frames.first());
+  request.set_last_frame(frames.last());
   request.set_priority(options.priority);
   request.set_project(options.project);
   request.set_verify_share(options.verify);
-  request.set_after_job(options.after);
+  request.set_after_job(after);
   request.set_protocol(kProtocol);
   return client.Submit(request);
 }
 
 int RunSubmit(const Options& options) {
-  Result<FrameRange> range = ParseFrameRange(options.frames);
-  if (!range.ok()) return console::Fail(range.error());
-  const Result<std::vector<Setting>> settings = SettingsOf(options.sets, options.size);
+  Result<FrameSet> frames = ParseFrames(options.frames);
+  if (!frames.ok()) return console::Fail(frames.error());
+  const Result<std::vector<Setting>> settings = SettingsOf(options.changes, options.scene);
   if (!settings.ok()) return console::Fail(settings.error());
   const Result<double> budget = ParseBudget(options.budget, kFrameBudget);
   if (!budget.ok()) return console::Fail(budget.error());
   LoadResult loaded = LoadSceneFile(options.scene, *settings);
   for (const std::string& note : loaded.notes) console::Note(note);
   if (!loaded.ok()) return console::Fail(loaded.errors);
-  range = WithinAnimation(*range, 1, loaded.loaded.scene.output().frames(), options.scene);
-  if (!range.ok()) return console::Fail(range.error());
+  frames = WithinAnimation(*frames, 1, loaded.loaded.scene.output().frames(), options.scene);
+  if (!frames.ok()) return console::Fail(frames.error());
+  if (frames->spans().size() > 1 || frames->spans()[0].step > 1) {
+    return console::Fail(MakeError(ErrorCode::kUsage,
+                                   "--frames " + options.frames +
+                                       ": a job is one range of frames, as 1-48; submit each range "
+                                       "as a job of its own"));
+  }
 
   if (*budget < kNoBudget) {
     const auto animation = Animation::Make(loaded.loaded);
     if (!animation.ok()) return console::Fail(InScene(animation.error(), options.scene));
     const Result<> held =
-        CheckBudget(**animation, *range, *budget, Counted::kInView, {options.scene, *settings});
+        CheckBudget(**animation, *frames, *budget, Counted::kInView, {options.scene, *settings});
     if (!held.ok()) return console::Fail(held.error());
   }
   FarmClient client(options.farm.server, options.farm.Waiting());
   const Result<v1::SubmitResponse> submitted =
-      Submit(options, client, std::move(loaded.loaded), *range);
+      Submit(options, client, std::move(loaded.loaded), *frames);
   if (!submitted.ok()) return console::Fail(submitted.error());
   const std::string& job = submitted->job_id();
   if (!options.farm.json) {
@@ -124,11 +136,8 @@ void AddSubmit(CLI::App& app, Run* run) {
   CLI::App* command = app.add_subcommand("submit", "Give a scene to the farm; prints the job id");
   const auto options = std::make_shared<Options>();
   command->add_option("SCENE", options->scene, "Scene file")->required();
-  command->add_option("--frames", options->frames, "One frame or a range, as 1-48; default all");
-  command->add_option("--size", options->size, "Picture size instead of the scene's, as 960x540");
-  command
-      ->add_option("--set", options->sets, "path=value, instead of what the scene says; repeatable")
-      ->allow_extra_args(false);
+  AddFrames(command, &options->frames);
+  AddSceneChanges(command, &options->changes);
   command->add_option("--priority", options->priority, "Higher goes first")
       ->check(CLI::Range(-1000, 1000));
   command->add_option("--project", options->project, "Projects share the farm fairly");
@@ -136,7 +145,7 @@ void AddSubmit(CLI::App& app, Run* run) {
                       "The same id with the same content is one job, however often it is sent");
   command->add_option("--verify", options->verify, "Share of frames rendered twice and compared")
       ->check(CLI::Range(0., 1.));
-  command->add_option("--after", options->after, "Wait until this job is done");
+  command->add_option("--after", options->after, "Wait until this job, by id or name, is done");
   AddBudget(command, &options->budget);
   command->add_flag("--wait", options->wait, "Follow the job to its end");
   AddPatience(command, &options->farm);
@@ -145,6 +154,7 @@ void AddSubmit(CLI::App& app, Run* run) {
       "Examples:\n"
       "  fjord submit examples/taiwan-rising.scene\n"
       "  fjord submit island.scene --frames 1-24 --priority 10 --wait\n"
+      "  fjord submit island.scene --frames 1-24 --size 50% --samples 1\n"
       "  fjord submit island.scene --request-id island-7 --server 127.0.0.1:7433");
   command->callback([options, run] { *run = [options] { return RunSubmit(*options); }; });
 }

@@ -6,6 +6,7 @@
 #include "client/console.h"
 #include "client/exit_code.h"
 #include "client/farm_client.h"
+#include "client/find_job.h"
 #include "client/follow_job.h"
 #include "client/job_text.h"
 
@@ -19,7 +20,9 @@ struct Options {
 
 int RunWatch(const Options& options) {
   FarmClient client(options.farm.server, options.farm.Waiting());
-  const Result<v1::Job> ended = FollowJob(client, options.job);
+  const Result<std::string> job = FindJob(client, options.job);
+  if (!job.ok()) return console::Fail(job.error());
+  const Result<v1::Job> ended = FollowJob(client, *job);
   if (!ended.ok()) return console::Fail(ended.error());
   if (options.farm.json) {
     if (const Result<> printed = console::Print(JobJson(*ended).dump(1) + "\n"); !printed.ok())
@@ -34,7 +37,7 @@ int RunWatch(const Options& options) {
 void AddWatch(CLI::App& app, Run* run) {
   CLI::App* command = app.add_subcommand("watch", "Follow a job: frames, workers, time left");
   const auto options = std::make_shared<Options>();
-  command->add_option("JOB", options->job, "Job id, as submit prints it")->required();
+  command->add_option("JOB", options->job, "Job id, as submit prints it, or name")->required();
   AddPatience(command, &options->farm);
   AddFarmOptions(command, &options->farm);
   command->footer(

@@ -19,11 +19,11 @@ struct Options {
 };
 
 std::string Text(const v1::WorkerInfo& worker) {
-  char head[200];
-  std::snprintf(head, sizeof head, "%-24s %-12s %3u threads  %6llu frames", worker.id().c_str(),
-                WorkerStateName(worker.state()), worker.threads(),
+  char numbers[80];
+  std::snprintf(numbers, sizeof numbers, " %3u threads  %6llu frames", worker.threads(),
                 static_cast<unsigned long long>(worker.frames_done()));
-  std::string text = head;
+  std::string text =
+      Column(worker.id(), 24) + " " + Column(WorkerStateName(worker.state()), 12) + numbers;
   for (const v1::Holding& held : worker.holding())
     text += "  " + held.job_id() + " frame " + std::to_string(held.frame());
   return text + "\n";

@@ -165,10 +165,6 @@ std::string StemOf(const std::string& file_name) {
   std::string stem = slash == std::string::npos ? file_name : file_name.substr(slash + 1);
   const size_t dot = stem.find_last_of('.');
   if (dot != std::string::npos && dot > 0) stem.resize(dot);
-  for (char& c : stem) {
-    if (!IsSceneName(std::string_view(&c, 1))) c = '_';
-  }
-  stem.resize(std::min<size_t>(stem.size(), limits::kNameBytes));
   return stem.empty() ? "scene" : stem;
 }
 

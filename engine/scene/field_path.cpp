@@ -1,5 +1,6 @@
 #include "engine/scene/field_path.h"
 
+#include "engine/base/printable.h"
 #include "engine/scene/limits.h"
 
 namespace fjord {
@@ -18,6 +19,11 @@ bool IsSceneName(std::string_view name) {
     if (!IsNameLetter(c)) return false;
   }
   return true;
+}
+
+bool IsPictureStem(std::string_view name) {
+  return !name.empty() && name.size() <= limits::kNameBytes && name.front() != '.' &&
+         name.find('/') == std::string_view::npos && IsPrintable(name);
 }
 
 Result<FieldPath> ParseFieldPath(std::string_view text) {

@@ -28,8 +28,12 @@ struct FieldPath {
 Result<FieldPath> ParseFieldPath(std::string_view text);
 std::string PrintFieldPath(const FieldPath& path);
 
-// Letters, digits, - and _; not empty, at most limits::kNameBytes: what names of scenes, objects
-// and lights are made of.
+// Letters, digits, - and _; not empty, at most limits::kNameBytes: what names of objects and lights
+// are made of.
 bool IsSceneName(std::string_view name);
+
+// What the names of pictures may begin with, and a scene may be named: characters of any script and
+// blanks, without / and control characters, not beginning with a dot, at most limits::kNameBytes.
+bool IsPictureStem(std::string_view name);
 
 }  // namespace fjord

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "engine/base/printable.h"
 #include "engine/scene/field_path.h"
 #include "engine/scene/limits.h"
 #include "engine/scene/ranges.h"
@@ -127,9 +128,12 @@ void CheckObject(const v1::Scene& scene, int index, const SceneShapes& shapes,
 }
 
 void CheckScene(v1::Scene* scene, const SceneShapes& shapes, SceneErrors* errors) {
-  if (!IsSceneName(scene->name())) {
+  if (!IsPictureStem(scene->name())) {
     errors->Add(Route().Then("name"),
-                "\"" + scene->name() + "\" cannot be a name: letters, digits, - and _");
+                "\"" + Printable(scene->name()) + "\" cannot be a scene's name, with which its " +
+                    "pictures' begin: characters of any script, no /, no control characters, " +
+                    "not beginning with a dot, at most " + std::to_string(limits::kNameBytes) +
+                    " bytes");
   }
   if (scene->objects_size() == 0) {
     errors->Add({}, "the scene has no objects; add objects { shape { ... } }");

@@ -17,13 +17,17 @@ class BadInputTest : public ::testing::Test {
   // `place`.
   void ExpectRefused(const std::string& text, const std::string& place, const std::string& says) {
     const std::string file = folder_.Write("bad.scene", text);
-    for (const ProgramRun& run :
-         {RunFjord({"check", file}), RunFjord({"render", file, "-o", folder_ / "out"})}) {
-      EXPECT_EQ(run.code, 1) << text;
-      EXPECT_THAT(run.err, HasSubstr("bad.scene" + place)) << text;
-      EXPECT_THAT(run.err, HasSubstr("error: ")) << text;
-      EXPECT_THAT(run.err, HasSubstr(says)) << text;
-      EXPECT_EQ(run.out, "");
+    const ProgramRun check = RunFjord({"check", file});
+    const ProgramRun render = RunFjord({"render", file, "-o", folder_ / "out"});
+    EXPECT_EQ(check.code, 1) << text;
+    EXPECT_EQ(render.code, 1) << text;
+    // Defects are what `check` is asked for.
+    EXPECT_EQ(check.err, "") << text;
+    EXPECT_EQ(render.out, "") << text;
+    for (const std::string& said : {check.out, render.err}) {
+      EXPECT_THAT(said, HasSubstr("bad.scene" + place)) << text;
+      EXPECT_THAT(said, HasSubstr("error: ")) << text;
+      EXPECT_THAT(said, HasSubstr(says)) << text;
     }
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
   }
@@ -68,8 +72,9 @@ TEST_F(BadInputTest, FilesOfTwoGigabytes) {
     std::filesystem::resize_file(file, uint64_t{2} << 30);  // sparse
     const ProgramRun run = RunFjord({std::string(name) == "big.png" ? "digest" : "check", file});
     EXPECT_EQ(run.code, 1) << name;
-    EXPECT_THAT(run.err, HasSubstr(name));
-    EXPECT_THAT(run.err, HasSubstr("2147483648 bytes; at most")) << run.err;
+    const std::string said = run.out + run.err;
+    EXPECT_THAT(said, HasSubstr(name));
+    EXPECT_THAT(said, HasSubstr("2147483648 bytes; at most")) << said;
   }
 }
 
@@ -127,7 +132,7 @@ TEST_F(BadInputTest, ScenesThatNeverEnd) {
         {"render", file, "-o", folder_ / "out", "--set", "objects[c].fractal.epsilon=1e-7"}}) {
     const ProgramRun run = RunFjord(command);
     EXPECT_EQ(run.code, 1) << run.err;
-    EXPECT_THAT(run.err, HasSubstr(" would fit; --budget lifts it")) << command[0];
+    EXPECT_THAT(run.out + run.err, HasSubstr(" would fit; --budget lifts it")) << command[0];
   }
   const ProgramRun set =
       RunFjord({"render", file, "-o", folder_ / "out", "--set", "objects[c].fractal.epsilon=1e-7"});
@@ -161,15 +166,16 @@ TEST_F(BadInputTest, DevicesThatNeverEnd) {
         {"import", folder_ / "zero.std", "-o", folder_ / "made.scene"}}) {
     const ProgramRun run = RunFjord(command);
     EXPECT_EQ(run.code, 1) << command[0] << run.err;
-    EXPECT_THAT(run.err, HasSubstr("this is a device, which may never end")) << command[0];
+    EXPECT_THAT(run.out + run.err, HasSubstr("this is a device, which may never end"))
+        << command[0];
   }
 }
 
 TEST_F(BadInputTest, SeveralDefectsAtOnce) {
   const std::string file = folder_.Write("bad.scene", WithFractal("epsilon: -1 pixels: -2"));
   const ProgramRun run = RunFjord({"check", file});
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 3) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("give one of epsilon, pixels and viewing"));
+  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 3) << run.out;
+  EXPECT_THAT(run.out, HasSubstr("give one of epsilon, pixels and viewing"));
 }
 
 TEST_F(BadInputTest, FramesOutsideTheAnimation) {
@@ -207,7 +213,7 @@ TEST_F(BadInputTest, LinksThatGoRoundInCircles) {
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err.substr(0, 1000);
   std::filesystem::create_symlink("circle.scene", folder_ / "circle.scene");
   EXPECT_THAT(
-      RunFjord({"check", folder_ / "circle.scene"}).err,
+      RunFjord({"check", folder_ / "circle.scene"}).out,
       HasSubstr("circle.scene: error: cannot be opened: Too many levels of symbolic links"));
 }
 
@@ -240,9 +246,9 @@ TEST_F(BadInputTest, ShapesWithDefectsAreNamedByLine) {
       "a square, one face turned over\ndata 4 2\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 1 2 3\n3 1 4 3\n");
   const ProgramRun run = RunFjord({"check", file});
   EXPECT_EQ(run.code, 1);
-  EXPECT_THAT(run.err, MatchesRegex("(.|\n)*bad.std:[78]:1: error: (.|\n)*"));
+  EXPECT_THAT(run.out, MatchesRegex("(.|\n)*bad.std:[78]:1: error: (.|\n)*"));
   const std::string past = folder_.Write("past.std", "data 3 1\n0 0 0\n1 0 0\n0 1 0\n3 1 2 9\n");
-  EXPECT_THAT(RunFjord({"check", past}).err, HasSubstr("past.std:5:"));
+  EXPECT_THAT(RunFjord({"check", past}).out, HasSubstr("past.std:5:"));
   const std::string par = folder_.Write("bad.par", "parameters\nH-Fdim 1.5\n");
   EXPECT_EQ(RunFjord({"check", par}).code, 1);
 }

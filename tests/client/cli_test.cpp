@@ -89,9 +89,9 @@ TEST(CliTest, CheckAnimationTellsWhetherAnythingPops) {
   const std::string pops = folder.Write("pops.scene", text);
   const ProgramRun wild = RunFjord({"check", "--animation", pops});
   EXPECT_EQ(wild.code, 1);
-  EXPECT_THAT(wild.err, HasSubstr("pops.scene: error: object bolt: a vertex pops between frames 10 "
+  EXPECT_THAT(wild.out, HasSubstr("pops.scene: error: object bolt: a vertex pops between frames 10 "
                                   "and 11"));
-  EXPECT_THAT(wild.err, HasSubstr("use direction: UP"));
+  EXPECT_THAT(wild.out, HasSubstr("use direction: UP"));
   const ProgramRun json = RunFjord({"check", "--animation", "--json", pops});
   EXPECT_EQ(json.code, 1);
   EXPECT_EQ(JsonOf(json)[0]["animation"][0]["good"], false);

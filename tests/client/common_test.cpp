@@ -8,19 +8,32 @@
 namespace fjord {
 namespace {
 
-TEST(FrameRangeTest, TakesOneFrameARangeOrNothing) {
-  EXPECT_EQ(ParseFrameRange("")->first, 0u);
-  EXPECT_EQ(ParseFrameRange("7")->first, 7u);
-  EXPECT_EQ(ParseFrameRange("7")->last, 7u);
-  EXPECT_EQ(ParseFrameRange("3-48")->last, 48u);
-  for (const char* bad : {"0", "-3", "3-", "a", "5-3", "1-2-3", "1 - 2", "99999999999", "1.5"})
-    EXPECT_EQ(ParseFrameRange(bad).ok(), false) << bad;
+TEST(FramesTest, TakesFramesOrNothing) {
+  EXPECT_TRUE(ParseFrames("")->empty());
+  EXPECT_EQ(ParseFrames("1-10,12")->size(), 11u);
+  const Result<FrameSet> bad = ParseFrames("1-10,12-");
+  ASSERT_FALSE(bad.ok());
+  EXPECT_EQ(bad.error().message.rfind("--frames 1-10,12-: character 9: ", 0), 0u)
+      << bad.error().message;
 }
 
-TEST(SizeTest, TakesWidthTimesHeight) {
+TEST(FramesTest, FramesOutsideTheAnimationAreNamed) {
+  EXPECT_EQ(WithinAnimation(FrameSet(), 1, 12, "s")->ToString(), "1-12");
+  EXPECT_EQ(WithinAnimation(*ParseFrames("2,5-12x2"), 1, 12, "s")->ToString(), "2,5-11x2");
+  const Result<FrameSet> outside = WithinAnimation(*ParseFrames("2,11-13"), 1, 12, "s");
+  ASSERT_FALSE(outside.ok());
+  EXPECT_EQ(
+      outside.error().message.rfind("frames 2,11-13 are asked for, the animation has 1-12", 0), 0u)
+      << outside.error().message;
+}
+
+TEST(SizeTest, TakesWidthTimesHeightOrAShare) {
   EXPECT_EQ(ParseSize("960x540")->width, 960u);
   EXPECT_EQ(ParseSize("960x540")->height, 540u);
-  for (const char* bad : {"", "960", "x", "0x5", "5x0", "960x540x2", "-1x5"})
+  EXPECT_EQ(ParseSize("50%")->share, .5);
+  EXPECT_EQ(ParseSize("12.5%")->share, .125);
+  for (const char* bad : {"", "960", "x", "0x5", "5x0", "960x540x2", "-1x5", "%", "0%", "-5%",
+                          "50%x2", "a%", "nan%", "50%%"})
     EXPECT_FALSE(ParseSize(bad).ok()) << bad;
 }
 

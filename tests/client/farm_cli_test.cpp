@@ -122,7 +122,8 @@ TEST_F(FarmCliTest, AServerThatIsDownIsCode3WithTheRemedy) {
   for (std::vector<std::string> command : commands) {
     command.push_back("--server");
     command.push_back("127.0.0.1:1");
-    const bool waits = command[0] == "submit" || command[0] == "status" || command[0] == "fetch";
+    const bool waits = command[0] == "submit" || command[0] == "status" || command[0] == "fetch" ||
+                       command[0] == "watch";
     if (waits) command.insert(command.end(), {"--patience", "0"});
     const ProgramRun run = RunFjord(command);  // no gRPC runs here in this test
     EXPECT_EQ(run.code, 3) << command[0] << run.err;

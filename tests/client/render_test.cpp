@@ -74,7 +74,7 @@ TEST_F(RenderTest, KeepsFramesThatAreThereAndMakesOthersAnew) {
   EXPECT_THAT(run.err, HasSubstr("2 frames rendered, 2 were there already"));
   EXPECT_EQ(Digests(out), digests);
   const ProgramRun other =
-      RunFjord({"render", scene_, "-o", out, "--set", "objects[hill].fractal.seed=6"});
+      RunFjord({"render", scene_, "-o", out, "--replace", "--set", "objects[hill].fractal.seed=6"});
   EXPECT_THAT(other.err, HasSubstr("4 frames rendered"));
   EXPECT_NE(Digests(out), digests);
 }

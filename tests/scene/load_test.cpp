@@ -483,7 +483,7 @@ TEST_F(LoadFileTest, FilesAreRelativeToTheScene) {
       Write("in here/my scene.scene", "objects { shape { file { path: \"a.std\" } } }");
   const LoadResult result = LoadSceneFile(path);
   EXPECT_TRUE(result.ok()) << ErrorsOf(result);
-  EXPECT_EQ(result.loaded.scene.name(), "my_scene");
+  EXPECT_EQ(result.loaded.scene.name(), "my scene");
 }
 
 TEST_F(LoadFileTest, UnreadableScenesSayWhy) {
