@@ -79,13 +79,16 @@ KnobTable MidpointKnobs(const MidpointOffer& offer) {
       KnobRow<&S::coast_H>("coast_H", "smoother shore; below .5 it folds into bays and spits")
           .In(.06, 1)
           .When("coast true", WhenSettings<S, Coast>),
+      KnobRow<&S::by_place>("by_place",
+                            "detail follows places in the object's space instead of vertex "
+                            "numbers: neighbouring tiles meet, with direction UP"),
   };
   static_assert(FieldCount<S>() == 1 + std::size(rows),
                 "every field but the common ones has a row");
-  constexpr size_t kForAll = 10;  // then increments, coast, coast_H
+  constexpr size_t kForAll = 10;  // then increments and the border's
   std::vector<Knob> offered(rows, rows + kForAll);
   if (!offer.increments.empty()) offered.push_back(rows[kForAll]);
-  if (offer.has_coast) offered.insert(offered.end(), rows + kForAll + 1, std::end(rows));
+  if (offer.has_border) offered.insert(offered.end(), rows + kForAll + 1, std::end(rows));
   return KnobTable(std::move(offered), offer.defaults, CheckTogether);
 }
 

@@ -11,7 +11,7 @@ struct MidpointOffer {
   FractalSettings defaults;
   std::span<const KnobWord> directions;
   bool similar_reads_sigma = false;
-  bool has_coast = false;
+  bool has_border = false;               // coast, coast_H and by_place
   std::span<const KnobWord> increments;  // none: not offered
 };
 

@@ -51,6 +51,7 @@ struct FractalSettings : FractalCommon {
   Increments increments = Increments::kMidpoint;
   bool coast = false;
   double coast_H = .75;
+  bool by_place = false;
 };
 
 }  // namespace fjord

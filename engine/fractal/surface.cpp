@@ -21,8 +21,8 @@ constexpr size_t kMostPoints = size_t{1} << 27;  // 32-bit offsets into 64-byte 
 
 class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
  public:
-  PreparedSurface(CoarseSurface coarse, const SurfaceRules& rules, uint64_t seed)
-      : coarse_(std::move(coarse)), rules_(rules), inland_(rules), reach_(rules_), seed_(seed) {
+  PreparedSurface(CoarseSurface coarse, const SurfaceRules& rules)
+      : coarse_(std::move(coarse)), rules_(rules), inland_(rules), reach_(rules_) {
     // Away from coasts, edges need not know their sites where sites say nothing else.
     inland_.coast = false;
     inland_.sites = rules.direction == Direction::kEdge || rules.direction == Direction::kFace;
@@ -81,7 +81,7 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
   }
 
   Result<WeldedShape> Weld(const WeldLimits& limits) const override {
-    return WeldSurface(*this, coarse_, rules_, seed_, limits);
+    return WeldSurface(*this, coarse_, rules_, limits);
   }
 
   size_t Bytes() const override { return sizeof(*this) + coarse_.Bytes(); }
@@ -268,7 +268,6 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
   SurfaceRules rules_;
   SurfaceRules inland_;
   SurfaceReach reach_;
-  uint64_t seed_;
   double position_slack_ = 0;
 };
 
@@ -284,7 +283,7 @@ Result<std::unique_ptr<PreparedFractal>> PrepareSurface(CoarseShape shape,
   for (const CoarseEdge& edge : coarse->edges) longest2 = std::max(longest2, edge.length2);
   rules->stages.SetUnit(longest2);
   return std::unique_ptr<PreparedFractal>(
-      std::make_unique<PreparedSurface>(std::move(*coarse), *rules, settings.seed));
+      std::make_unique<PreparedSurface>(std::move(*coarse), *rules));
 }
 
 }  // namespace fjord

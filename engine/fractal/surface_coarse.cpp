@@ -1,6 +1,7 @@
 #include "engine/fractal/surface_coarse.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -75,6 +76,13 @@ struct TriangleRoles {
   bool right = false;
 };
 
+// One and the same for -0 and 0.
+uint64_t KeyOfPlace(const Vec3& p) {
+  uint64_t key = 0;
+  for (int k = 0; k < 3; ++k) key = Mix64(key + kShareStep + std::bit_cast<uint64_t>(p[k] + 0.));
+  return key;
+}
+
 TriangleRoles RolesOf(const CoarseSurface& coarse, size_t t, bool current, const uint64_t* ids) {
   const auto length2 = [&](uint32_t k) {
     const CoarseEdge& edge = coarse.edges[coarse.triangle_edges[t][k]];
@@ -93,14 +101,14 @@ TriangleRoles RolesOf(const CoarseSurface& coarse, size_t t, bool current, const
   return roles;
 }
 
-// Both sides of every edge must read the same two shares: those of its triangles where two run
 // The shares of an edge belong to it, so that whatever uses it reads the same two: those of its
-// triangles where two run along it in opposite ways, otherwise two of its own.
-void SetShares(const EdgeTable& table, bool current, uint64_t seed, CoarseSurface* coarse) {
+// triangles where two run along it in opposite ways, otherwise two of its own. `by_place`: those
+// two do not change sides with the vertices' numbers, so that a neighbouring tile has the same.
+void SetShares(const EdgeTable& table, bool current, bool by_place, CoarseSurface* coarse) {
   std::vector<uint64_t> shares;  // three a triangle
   for (size_t t = 0; t < coarse->triangles.size(); ++t) {
     uint64_t ids[3];
-    for (size_t k = 0; k < 3; ++k) ids[k] = CoarseIdentity(seed, coarse->triangles[t][k]).lo;
+    for (size_t k = 0; k < 3; ++k) ids[k] = coarse->identity[coarse->triangles[t][k]].lo;
     const TriangleRoles roles = RolesOf(*coarse, t, current, ids);
     const uint64_t share = CoarseShare(ids[0], ids[1], ids[2]) | (roles.right ? kShareRight : 0);
     for (uint32_t k = 0; k < 3; ++k) shares.push_back(share | (k + 2 + 3 - roles.longest) % 3);
@@ -113,9 +121,10 @@ void SetShares(const EdgeTable& table, bool current, uint64_t seed, CoarseSurfac
       made.right = shares[uses[uses[0].forward ? 1 : 0].corner];
       continue;
     }
-    const uint64_t a = CoarseIdentity(seed, made.a).lo, b = CoarseIdentity(seed, made.b).lo;
-    made.left = EdgeShare(a, b, 0);
-    made.right = EdgeShare(a, b, 1);
+    const uint64_t a = coarse->identity[made.a].lo, b = coarse->identity[made.b].lo;
+    const uint64_t left = by_place && a > b ? 1 : 0;
+    made.left = EdgeShare(a, b, left);
+    made.right = EdgeShare(a, b, 1 - left);
   }
 }
 
@@ -161,7 +170,10 @@ Result<CoarseSurface> MakeCoarseSurface(const CoarseShape& shape, const SurfaceR
     coarse.triangle_edges.push_back(edges);
   }
 
-  if (rules.even) SetShares(table, rules.current(), seed, &coarse);
+  for (size_t v = 0; v < now.size(); ++v) {
+    coarse.identity.push_back(CoarseIdentity(seed, rules.by_place ? KeyOfPlace(shape.rest[v]) : v));
+  }
+  if (rules.even) SetShares(table, rules.current(), rules.by_place, &coarse);
 
   const std::vector<Vec3> normals = VertexNormals(now, coarse.triangles);
   const std::vector<float> stretches =
@@ -171,7 +183,7 @@ Result<CoarseSurface> MakeCoarseSurface(const CoarseShape& shape, const SurfaceR
     coarse.eye_distance2.push_back(eye2);
     coarse.vertices.push_back({now[v],
                                rules.direction == Direction::kUp ? Vec3(0, 0, 1) : normals[v],
-                               CoarseIdentity(seed, v).lo, stretches[v], ClampToFloat(eye2)});
+                               coarse.identity[v].lo, stretches[v], ClampToFloat(eye2)});
     for (int i = 0; i < 3; ++i) {
       const double size = now[v][i] < 0 ? -now[v][i] : now[v][i];
       if (size > coarse.largest) coarse.largest = size;

@@ -32,12 +32,13 @@ struct CoarseSurface {
   std::vector<Triangle> triangle_edges;  // edge k from corner k to k + 1
   std::vector<Vec3> face_normals;
   std::vector<CoarseEdge> edges;
-  double largest = 0;  // largest absolute coordinate
+  std::vector<Identity> identity;  // one a vertex
+  double largest = 0;              // largest absolute coordinate
 
   size_t Bytes() const {
     return VectorBytes(vertices) + VectorBytes(eye_distance2) + VectorBytes(colors) +
            VectorBytes(triangles) + VectorBytes(triangle_edges) + VectorBytes(face_normals) +
-           VectorBytes(edges);
+           VectorBytes(edges) + VectorBytes(identity);
   }
 
   // Site of side k of a triangle, k = 3: of its inside.

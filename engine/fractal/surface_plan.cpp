@@ -17,7 +17,7 @@ constexpr size_t kAtATime = 64;        // groups counted between two looks at th
 }  // namespace
 
 SurfacePlan::SurfacePlan(const SurfaceRoots& roots, const CoarseSurface& coarse,
-                         const SurfaceRules& rules, uint64_t seed, const WeldLimits& limits)
+                         const SurfaceRules& rules, const WeldLimits& limits)
     : colored(!coarse.colors.empty()),
       limit(std::min<uint64_t>(limits.max_points, uint64_t{1} << 27)),
       roots_(roots),
@@ -26,8 +26,7 @@ SurfacePlan::SurfacePlan(const SurfaceRoots& roots, const CoarseSurface& coarse,
       threads_(limits.threads) {
   const size_t count = coarse.vertices.size();
   for (size_t v = 0; v < count; ++v) {
-    AddPoint(coarse.vertices[v], colored ? coarse.colors[v] : Rgb(0), CoarseIdentity(seed, v), 0,
-             false);
+    AddPoint(coarse.vertices[v], colored ? coarse.colors[v] : Rgb(0), coarse.identity[v], 0, false);
   }
   for (const CoarseEdge& e : coarse.edges) {
     if (e.site.coast > 0) shape.coast[e.a] = shape.coast[e.b] = 1;

@@ -59,7 +59,7 @@ class SurfacePlan {
   };
 
   SurfacePlan(const SurfaceRoots& roots, const CoarseSurface& coarse, const SurfaceRules& rules,
-              uint64_t seed, const WeldLimits& limits);
+              const WeldLimits& limits);
 
   // Cuts and counts; false beyond the limit.
   bool Make();

@@ -64,6 +64,7 @@ Result<SurfaceRules> MakeSurfaceRules(const FractalSettings& settings) {
   rules.coast = settings.coast;
   rules.sites = settings.coast || settings.direction == Direction::kEdge ||
                 settings.direction == Direction::kFace;
+  rules.by_place = settings.by_place;
   rules.even = settings.increments == Increments::kEven;
   rules.affine_scale = settings.sigma * settings.amplitude * AffineConstant(settings.H);
   rules.half_H = settings.H * .5;

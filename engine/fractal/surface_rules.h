@@ -26,8 +26,9 @@ struct SurfaceRules {
   Split split = Split::kShot;
   uint32_t max_level = 0;
   bool coast = false;
-  bool sites = false;  // edges must know their EdgeSite
-  bool even = false;   // edges know their triangles' shares (shares.h)
+  bool sites = false;     // edges must know their EdgeSite
+  bool even = false;      // edges know their triangles' shares (shares.h)
+  bool by_place = false;  // coarse identities come from rest places, not numbers
 
   // Offsets.
   double affine_scale = 0;  // sigma A c(H)

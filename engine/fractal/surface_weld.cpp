@@ -136,10 +136,9 @@ Error TooMany(uint64_t limit) {
 }  // namespace
 
 Result<WeldedShape> WeldSurface(const SurfaceRoots& roots, const CoarseSurface& coarse,
-                                const SurfaceRules& rules, uint64_t seed,
-                                const WeldLimits& limits) {
+                                const SurfaceRules& rules, const WeldLimits& limits) {
   if (coarse.vertices.size() > limits.max_points) return TooMany(limits.max_points);
-  SurfacePlan plan(roots, coarse, rules, seed, limits);
+  SurfacePlan plan(roots, coarse, rules, limits);
   if (!plan.Make()) return TooMany(limits.max_points);
   SurfaceWriter writer(&plan, limits.details);
   if (!writer.PlacePoints()) return TooMany(limits.max_points);

@@ -60,6 +60,6 @@ class SurfaceRoots {
 
 // kLimit where there are more points than limits.max_points.
 Result<WeldedShape> WeldSurface(const SurfaceRoots& roots, const CoarseSurface& coarse,
-                                const SurfaceRules& rules, uint64_t seed, const WeldLimits& limits);
+                                const SurfaceRules& rules, const WeldLimits& limits);
 
 }  // namespace fjord

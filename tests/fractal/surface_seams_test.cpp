@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "engine/geometry/check_mesh.h"
 #include "tests/fractal/surface_shapes.h"
 
@@ -203,6 +206,59 @@ TEST(SurfaceSeamsTest, S22_TaiwansWaterlineStaysAtZero) {
   }
   EXPECT_GT(coasts, 400u);
   EXPECT_EQ(SeamsOf(WeldedLeaves(welded)).single, BorderPieces(TaiwanRelief(), .03));
+}
+
+// A tile of a plain with hills, from x0 to x0 + 1; its numbers begin at another corner where
+// `turned`.
+CoarseShape Tile(double x0, bool turned) {
+  constexpr uint32_t kCells = 3;
+  CoarseShape tile;
+  const auto number = [&](uint32_t i, uint32_t j) {
+    const uint32_t v = j * (kCells + 1) + i;
+    return turned ? (kCells + 1) * (kCells + 1) - 1 - v : v;
+  };
+  tile.now.resize((kCells + 1) * (kCells + 1));
+  for (uint32_t j = 0; j <= kCells; ++j) {
+    for (uint32_t i = 0; i <= kCells; ++i) {
+      const double x = x0 + i / double{kCells}, y = j / double{kCells};
+      tile.now[number(i, j)] = Vec3(x, y, .2 * x * y);
+      if (i == kCells || j == kCells) continue;
+      tile.triangles.push_back({number(i, j), number(i + 1, j), number(i + 1, j + 1)});
+      tile.triangles.push_back({number(i, j), number(i + 1, j + 1), number(i, j + 1)});
+    }
+  }
+  tile.rest = tile.now;
+  return tile;
+}
+
+std::vector<Vec3> PointsAt(const WeldedShape& shape, double x) {
+  std::vector<Vec3> points;
+  for (const Vec3& p : shape.mesh.points) {
+    if (p.x == x) points.push_back(p);
+  }
+  std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) { return a.y < b.y; });
+  return points;
+}
+
+TEST(SurfaceSeamsTest, NeighbouringTilesMeetWhereDetailFollowsPlaces) {
+  for (const Increments increments : {Increments::kMidpoint, Increments::kEven}) {
+    FractalSettings settings = SurfaceSettings(.02);
+    settings.direction = Direction::kUp;
+    settings.increments = increments;
+    for (const bool turned : {false, true}) {
+      const auto borders = [&] {
+        return std::pair(PointsAt(Weld(*Prepare(Tile(0, false), settings)), 1),
+                         PointsAt(Weld(*Prepare(Tile(1, turned), settings)), 1));
+      };
+      settings.by_place = true;
+      const auto [west, east] = borders();
+      EXPECT_GT(west.size(), 40u);
+      EXPECT_EQ(west, east);
+      settings.by_place = false;
+      const auto [other, apart] = borders();
+      EXPECT_NE(other, apart);
+    }
+  }
 }
 
 }  // namespace

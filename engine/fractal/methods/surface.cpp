@@ -38,7 +38,7 @@ MethodInfo SurfaceMethod() {
        .knobs = MidpointKnobs({.defaults = Defaults(),
                                .directions = kDirections,
                                .similar_reads_sigma = true,
-                               .has_coast = true,
+                               .has_border = true,
                                .increments = kIncrements})},
       Takes::kTriangles,
       [](CoarseShape shape, const FractalCommon& common, const std::any& own) {
