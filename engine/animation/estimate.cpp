@@ -10,7 +10,6 @@
 #include "engine/base/exact_math.h"
 #include "engine/base/fpenv.h"
 #include "engine/fractal/amount.h"
-#include "engine/fractal/midpoint_knobs.h"
 #include "engine/fractal/registry.h"
 
 namespace fjord {
@@ -268,13 +267,13 @@ Result<ObjectEstimate> EstimateObject(const v1::FrameScene& frame, const AssetRe
   if (object.has_fractal()) {
     const Result<MethodSettings> known = MethodSettingsOf(object.fractal());
     if (!known) return known.error();
-    // What moves vertices is known of midpoint displacement; others are taken to keep their size.
-    if (std::any_cast<FractalSettings>(&known->own) != nullptr) {
-      settings = JoinMidpoint(*known, known->own);
+    const MethodInfo& method = *FindFractalMethod(known->method);
+    if (method.midpoint != nullptr) {
+      settings = method.midpoint(*known, known->own);
     } else {
       static_cast<FractalCommon&>(settings) = *known;
     }
-    borders_only = FindFractalMethod(settings.method)->borders_only;
+    borders_only = method.borders_only;
   }
   Estimator estimator(frame, object, settings, coarser);
   const size_t points = shape->now.size();

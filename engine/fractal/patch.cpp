@@ -51,15 +51,14 @@ uint32_t Patch::AddEdge(uint32_t a, uint32_t b, double length2, double current2,
   edge_site.Reserve(edge_count + 1, edge_count);
   edge_length2.Reserve(edge_count + 1, edge_count);
   edge_current2.Reserve(edge_count + 1, edge_count);
-  edge_left.Reserve(edge_count + 1, edge_count);
-  edge_right.Reserve(edge_count + 1, edge_count);
+  edge_shares.Reserve(2 * edge_count + 2, 2 * edge_count);
   edge_a[edge_count] = a;
   edge_b[edge_count] = b;
   edge_site[edge_count] = site;
   edge_length2[edge_count] = length2;
   edge_current2[edge_count] = current2;
-  edge_left[edge_count] = left;
-  edge_right[edge_count] = right;
+  edge_shares[2 * edge_count] = left;
+  edge_shares[2 * edge_count + 1] = right;
   return static_cast<uint32_t>(edge_count++);
 }
 
@@ -112,10 +111,7 @@ PatchStep Patch::Step(const SurfaceRules& rules, uint32_t edge_level) {
   edge_slot.Reserve(edges, edge_count);
   if (rules.sites) edge_site.Reserve(edges, edge_count);
   if (rules.current()) edge_current2.Reserve(edges, edge_count);
-  if (rules.even) {
-    edge_left.Reserve(edges, edge_count);
-    edge_right.Reserve(edges, edge_count);
-  }
+  if (rules.even) edge_shares.Reserve(2 * edges, 2 * edge_count);
   next.count = 0;
   next.Reserve(4 * triangles.count, rules.sites);
   for (PatchBuffer<uint32_t>& column : leaf) {
@@ -162,9 +158,9 @@ std::span<const Triangle> Patch::PackLeaves() {
 size_t Patch::Bytes() const {
   size_t bytes = vertex.bytes() + color.bytes() + place.bytes() + distance2.bytes() +
                  waiting.bytes() + edge_a.bytes() + edge_b.bytes() + edge_site.bytes() +
-                 edge_length2.bytes() + edge_current2.bytes() + edge_left.bytes() +
-                 edge_right.bytes() + edge_slot.bytes() + 3 * long_edge.bytes() +
-                 long_length2.bytes() + long_amount.bytes() + leaf_triangles.bytes();
+                 edge_length2.bytes() + edge_current2.bytes() + edge_shares.bytes() +
+                 edge_slot.bytes() + 3 * long_edge.bytes() + long_length2.bytes() +
+                 long_amount.bytes() + leaf_triangles.bytes();
   for (const PatchTriangles* list : {&triangles, &next}) {
     for (int k = 0; k < 3; ++k) bytes += list->corner[k].bytes() + list->edge[k].bytes();
     bytes += list->site.bytes();

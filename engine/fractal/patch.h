@@ -88,10 +88,10 @@ struct Patch {
   size_t vertex_limit = 0;
 
   PatchBuffer<uint32_t> edge_a, edge_b, edge_site;
-  PatchBuffer<double> edge_length2;             // rest pose; sign bit: short
-  PatchBuffer<double> edge_current2;            // now; kept only where SurfaceRules::current()
-  PatchBuffer<uint64_t> edge_left, edge_right;  // shares; kept only where SurfaceRules::even
-  PatchBuffer<uint32_t> edge_slot;  // place among the long edges of this level, kShort, kWaits
+  PatchBuffer<double> edge_length2;   // rest pose; sign bit: short
+  PatchBuffer<double> edge_current2;  // now; kept only where SurfaceRules::current()
+  PatchBuffer<uint64_t> edge_shares;  // left, right of each; kept only where SurfaceRules::even
+  PatchBuffer<uint32_t> edge_slot;    // place among the long edges of this level, kShort, kWaits
   size_t edge_count = 0;
   size_t run_begin = 0;  // edges from here on are the last run
 

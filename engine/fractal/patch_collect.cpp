@@ -75,7 +75,7 @@ void CollectLongEdgesLanes(Patch& patch, bool keep_numbers) {
     hn::StoreU(front(hn::LoadU(d, edge_a + i)), d, list_a + n);
     hn::StoreU(front(hn::LoadU(d, edge_b + i)), d, list_b + n);
     if (keep_numbers) {
-      hn::StoreU(front(hn::Iota(d, static_cast<uint32_t>(i))), d, list + n);
+      hn::StoreU(front(Counting(d, i)), d, list + n);
     }
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
     const __mmask16 bits = is_long.raw;

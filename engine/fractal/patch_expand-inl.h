@@ -122,12 +122,14 @@ class Expander : private TriangleLanes {
       if (TakeLong()) StoreThree(hn::RebindMask(DU(), right), inner, p1, p2);
       const VN first1 = First(1);
       AddTriangle(v_[0], m_[0], m_[2], First(0), Back(p2), Second(2));
-      AddTriangle(m_[0], v_[1], hn::IfThenElse(narrow, m_[2], m_[1]), Second(0),
-                  hn::IfThenElse(narrow, Back(inner), first1),
-                  hn::IfThenElse(narrow, p2, Back(inner)));
+      // The longest edge last here too, so that few have to be turned at the next level.
+      const VN second0 = Second(0);
+      AddTriangle(hn::IfThenElse(narrow, m_[2], m_[0]), hn::IfThenElse(narrow, m_[0], v_[1]),
+                  hn::IfThenElse(narrow, v_[1], m_[1]), hn::IfThenElse(narrow, p2, second0),
+                  hn::IfThenElse(narrow, second0, first1), Back(inner));
       AddTriangle(m_[2], m_[1], v_[2], Back(p1), Second(1), First(2));
-      AddTriangle(from, to, hn::IfThenElse(narrow, m_[1], m_[2]), inner,
-                  hn::IfThenElse(narrow, first1, p1), hn::IfThenElse(narrow, p1, p2));
+      AddTriangle(to, hn::IfThenElse(narrow, m_[1], m_[2]), from,
+                  hn::IfThenElse(narrow, first1, p1), hn::IfThenElse(narrow, p1, p2), inner);
     }
   }
 
@@ -160,8 +162,7 @@ class Expander : private TriangleLanes {
   }
   void StoreShares(VN edges, const Shares& shares) {
     const size_t at = hn::GetLane(edges);
-    hn::StoreU(shares.left, DU(), &patch_.edge_left[at]);
-    hn::StoreU(shares.right, DU(), &patch_.edge_right[at]);
+    hn::StoreInterleaved2(shares.left, shares.right, DU(), &patch_.edge_shares[2 * at]);
   }
 
   // Of the inner edges of a triangle with three long ones.
@@ -187,7 +188,7 @@ class Expander : private TriangleLanes {
     StoreShares(p2, {as(hn::IfThenElse(right, at1, middle), 0, role1), as(at0, 1, role1)});
   }
 
-  VN AddEdge(VN a, VN b, VF length2) {
+  HWY_INLINE VN AddEdge(VN a, VN b, VF length2) {
     const DN dn;
     const size_t at = edges_;
     hn::StoreU(a, dn, edge_a_ + at);
@@ -203,7 +204,7 @@ class Expander : private TriangleLanes {
     if (rules_.sites) hn::StoreU(site_, dn, &patch_.edge_site[at]);
     any_long_ |= rules_.even && (rules_.current() || AnyLong(length2));
     edges_ += lanes_;
-    return hn::Iota(dn, static_cast<uint32_t>(at));
+    return Counting(dn, at);
   }
 
   VF Distance2(VN index) const {
@@ -214,7 +215,7 @@ class Expander : private TriangleLanes {
   }
 
   // Runs of lanes_ entries, ascending: what is written beyond a run belongs to the next one.
-  void AddTriangle(VN a, VN b, VN c, VN ab, VN bc, VN ca) {
+  HWY_INLINE void AddTriangle(VN a, VN b, VN c, VN ab, VN bc, VN ca) {
     const DN dn;
     const VN corners[3] = {a, b, c};
     const VN edges[3] = {ab, bc, ca};

@@ -97,7 +97,7 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
   uint32_t* edge_b = patch.edge_b.data();
   double* edge_length2 = patch.edge_length2.data();
   const size_t halves[2] = {patch.halves[0], patch.halves[1]};
-  const auto midpoints = static_cast<uint32_t>(patch.midpoints);
+  const size_t midpoints = patch.midpoints;
   const bool current = !kPlain && rules.current();
   const bool sites = !kPlain && rules.sites;
   const bool staged = !kPlain && rules.staged();
@@ -111,9 +111,7 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
     const VU id = MixLanes(id_a + id_b);
     VU left = hn::Zero(du), right = left;
     if (kShared) {
-      const VN number = hn::LoadU(dn, &patch.long_edge[k]);
-      left = Gather(patch.edge_left.data(), number);
-      right = Gather(patch.edge_right.data(), number);
+      LoadPairs(patch.edge_shares.data(), &patch.long_edge[k], left, right);
     }
     const VF g = kShared ? SharedGaussianLanes(rules, left, right, id) : GaussianLanes(rules, id);
     const VF stretch = (FloatOf<false>(a.v[7]) + FloatOf<false>(b.v[7])) * half;
@@ -178,7 +176,7 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
           staged ? Flagged<true>(rules, first2, da, dm) : Flagged<false>(rules, first2, da, dm);
     }
     const size_t first = halves[0] + k, second = halves[1] + k;
-    const VN middle = hn::Iota(dn, midpoints + static_cast<uint32_t>(k));
+    const VN middle = Counting(dn, midpoints + k);
     hn::StoreU(hn::LoadU(dn, list_a + k), dn, edge_a + first);
     hn::StoreU(middle, dn, edge_b + first);
     hn::StoreU(first2, d, edge_length2 + first);
@@ -186,10 +184,10 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
     hn::StoreU(hn::LoadU(dn, list_b + k), dn, edge_b + second);
     hn::StoreU(second2, d, edge_length2 + second);
     if (kShared && (current || AnyLong(first2) || AnyLong(second2))) {
-      hn::StoreU(HalfShare(left, false), du, &patch.edge_left[first]);
-      hn::StoreU(HalfShare(right, true), du, &patch.edge_right[first]);
-      hn::StoreU(HalfShare(left, true), du, &patch.edge_left[second]);
-      hn::StoreU(HalfShare(right, false), du, &patch.edge_right[second]);
+      uint64_t* shares = patch.edge_shares.data();
+      hn::StoreInterleaved2(HalfShare(left, false), HalfShare(right, true), du, shares + 2 * first);
+      hn::StoreInterleaved2(HalfShare(left, true), HalfShare(right, false), du,
+                            shares + 2 * second);
     }
     for (size_t i = 0; sites && i < lanes; ++i) {
       const uint32_t number = patch.edge_site[patch.long_edge[k + i]];

@@ -103,7 +103,7 @@ HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin,
   for (const int i : {0, 1, 2, kWaiting}) lists[i].count = 0;
   const PatchTriangles& from = patch.triangles;
   for (size_t t = begin; t < end; t += kLanes32) {
-    const M32 valid = hn::FirstN(d, end - t);
+    const M32 valid = FirstLanes(d, end - t);
     V32 v[3], e[3], s[3];
     M32 split[3];
     for (int k = 0; k < 3; ++k) {

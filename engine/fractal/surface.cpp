@@ -256,8 +256,8 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
       child.length2[k] = patch.edge_length2[e];
       child.current2[k] = patch.edge_current2[e];
       if (rules_.even) {
-        child.inside[k] = used == e ? patch.edge_left[e] : patch.edge_right[e];
-        child.outside[k] = used == e ? patch.edge_right[e] : patch.edge_left[e];
+        child.inside[k] = patch.edge_shares[used == e ? 2 * e : 2 * e + 1];
+        child.outside[k] = patch.edge_shares[used == e ? 2 * e + 1 : 2 * e];
       }
       child.site[k] = sites_kept ? patch.edge_site[e] : 0;
     }
