@@ -61,6 +61,49 @@ HWY_INLINE Triple SiteDirections(const Patch& patch, const uint32_t* edges, size
   return {hn::Load(d, column[0]), hn::Load(d, column[1]), hn::Load(d, column[2])};
 }
 
+// Few lengths are different where triangles are halved into similar ones: those that were met last,
+// with what was made of them. A pass over edges that are all different does without after a while.
+class AmountMemo {
+ public:
+  // False: lanes are left that were not met.
+  HWY_INLINE bool Find(VF length2, VF& amount) const {
+    const DF d;
+    amount = hn::Zero(d);
+    MF known = hn::Gt(amount, amount);
+    for (size_t i = 0; i < kSize; ++i) {
+      const MF same = hn::Eq(length2, hn::Set(d, length2_[i]));
+      amount = hn::IfThenElse(same, hn::Set(d, amount_[i]), amount);
+      known = hn::Or(known, same);
+    }
+    return hn::AllTrue(d, known);
+  }
+  void Keep(VF length2, VF amount) {
+    const DF d;
+    constexpr size_t kLanes = hn::MaxLanes(DF());
+    HWY_ALIGN double lengths[kLanes];
+    HWY_ALIGN double amounts[kLanes];
+    hn::Store(length2, d, lengths);
+    hn::Store(amount, d, amounts);
+    for (size_t i = 0; i < kLanes; ++i) {
+      bool known = false;
+      for (size_t k = 0; k < kSize; ++k) known |= length2_[k] == lengths[i];
+      if (known) continue;
+      length2_[next_] = lengths[i];
+      amount_[next_] = amounts[i];
+      next_ = (next_ + 1) % kSize;
+    }
+    ++misses_;
+  }
+  bool helps(size_t asked) const { return 2 * misses_ < asked + 16; }
+
+ private:
+  static constexpr size_t kSize = 8;
+  double length2_[kSize] = {-1, -1, -1, -1, -1, -1, -1, -1};
+  double amount_[kSize] = {};
+  size_t next_ = 0;
+  size_t misses_ = 0;
+};
+
 // Affine amounts of the long edges: a pass of its own, because the power is one long chain of
 // operations, of which several must be under way at a time.
 void MeasureAmountsLanes(const SurfaceRules& rules, Patch& patch) {
@@ -70,12 +113,23 @@ void MeasureAmountsLanes(const SurfaceRules& rules, Patch& patch) {
   const size_t n = patch.long_count;
   const double* length2 = patch.long_length2.data();
   double* amount = patch.long_amount.data();
-  for (size_t k = 0; k < n; k += kLanes) {
-    const VF rest2 = hn::LoadU(d, length2 + k);
+  const auto measure = [&](VF rest2) {
     // Nothing below is split but by other lengths than these.
     const MF normal = hn::Ge(rest2, hn::Set(d, 0x1p-1022));
-    hn::StoreU(scale * hn::IfThenElseZero(normal, PowOfNormal(d, rest2, power)), d, amount + k);
+    return scale * hn::IfThenElseZero(normal, PowOfNormal(d, rest2, power));
+  };
+  AmountMemo memo;
+  size_t k = 0;
+  for (; k < n && memo.helps(k / kLanes); k += kLanes) {
+    const VF rest2 = hn::LoadU(d, length2 + k);
+    VF found;
+    if (!memo.Find(rest2, found)) {
+      found = measure(rest2);
+      memo.Keep(rest2, found);
+    }
+    hn::StoreU(found, d, amount + k);
   }
+  for (; k < n; k += kLanes) hn::StoreU(measure(hn::LoadU(d, length2 + k)), d, amount + k);
 }
 
 // kPlain: direction VERTEX, variant FIXED, law affine, split SHOT, no coast: what most
