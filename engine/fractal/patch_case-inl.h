@@ -24,8 +24,8 @@ class TriangleLanes {
   TriangleLanes(const SurfaceRules& rules, Patch& patch)
       : rules_(rules),
         patch_(patch),
-        edge_length2_(patch.edge_length2.data()),
-        midpoints_(hn::Set(DN(), static_cast<uint32_t>(patch.midpoints))) {}
+        edge_length2_(patch.edges.length2.data()),
+        midpoints_(hn::Set(DN(), static_cast<uint32_t>(patch.long_edges.midpoints))) {}
 
   // Shares on the left and on the right of a new edge.
   struct Shares {
@@ -72,7 +72,7 @@ class TriangleLanes {
 
   // The share of the triangles as their edge k knows it.
   VU Inside(int k) const {
-    return Gather(patch_.edge_shares.data(),
+    return Gather(patch_.edges.shares.data(),
                   hn::Or(hn::ShiftLeft<1>(e_[k]), hn::ShiftRight<31>(e_[k])));
   }
 
@@ -147,7 +147,7 @@ class TriangleLanes {
     const DF d;
     VF size2[3];
     for (int k = 0; k < 3; ++k) {
-      size2[k] = rules_.current() ? Gather(patch_.edge_current2.data(), index_[k]) : length_[k];
+      size2[k] = rules_.current() ? Gather(patch_.edges.current2.data(), index_[k]) : length_[k];
     }
     const VF most = Larger(size2[0], Larger(size2[1], size2[2]));
     const MF is0 = hn::Eq(size2[0], most), is1 = hn::Eq(size2[1], most),
@@ -205,8 +205,8 @@ class TriangleLanes {
       uint64_t least = 0;
       for (int k = 0; k < 3; ++k) {
         if (longest[k][i] == 0) continue;
-        const uint64_t sum =
-            patch_.vertex[corner[k][i]].id + patch_.vertex[corner[(k + 1) % 3][i]].id;
+        const uint64_t sum = patch_.vertices.value[corner[k][i]].id +
+                             patch_.vertices.value[corner[(k + 1) % 3][i]].id;
         if (best < 0 || sum < least) {
           best = k;
           least = sum;
@@ -222,8 +222,8 @@ class TriangleLanes {
   MF FirstLonger() const {
     const DF d;
     const bool current = rules_.current();
-    const VF a = current ? Gather(patch_.edge_current2.data(), index_[0]) : length_[0];
-    const VF b = current ? Gather(patch_.edge_current2.data(), index_[1]) : length_[1];
+    const VF a = current ? Gather(patch_.edges.current2.data(), index_[0]) : length_[0];
+    const VF b = current ? Gather(patch_.edges.current2.data(), index_[1]) : length_[1];
     const MF longer = hn::Gt(a, b);
     const MF equal = hn::Eq(a, b);
     if (hn::AllFalse(d, equal)) return longer;
@@ -231,9 +231,9 @@ class TriangleLanes {
     HWY_ALIGN uint64_t smaller[kLanes];
     for (int k = 0; k < 3; ++k) hn::Store(v_[k], DN(), corner[k]);
     for (size_t i = 0; i < kLanes; ++i) {
-      const uint64_t middle = patch_.vertex[corner[1][i]].id;
-      const uint64_t first = patch_.vertex[corner[0][i]].id + middle;
-      const uint64_t second = middle + patch_.vertex[corner[2][i]].id;
+      const uint64_t middle = patch_.vertices.value[corner[1][i]].id;
+      const uint64_t first = patch_.vertices.value[corner[0][i]].id + middle;
+      const uint64_t second = middle + patch_.vertices.value[corner[2][i]].id;
       smaller[i] = first < second ? ~uint64_t{0} : 0;
     }
     const MF sums = hn::MaskFromVec(hn::BitCast(d, hn::Load(DU(), smaller)));

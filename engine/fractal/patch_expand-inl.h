@@ -32,21 +32,21 @@ class Expander : private TriangleLanes {
  public:
   Expander(const SurfaceRules& rules, Patch& patch)
       : TriangleLanes(rules, patch),
-        edge_a_(patch.edge_a.data()),
-        edge_b_(patch.edge_b.data()),
-        length2_(patch.edge_length2.data()),
-        edges_(patch.edge_count),
+        edge_a_(patch.edges.a.data()),
+        edge_b_(patch.edges.b.data()),
+        length2_(patch.edges.length2.data()),
+        edges_(patch.edges.count),
         triangles_(patch.next.count) {
     for (int k = 0; k < 3; ++k) {
       corner_[k] = patch.next.corner[k].data();
       edge_[k] = patch.next.edge[k].data();
     }
-    along_ = hn::Set(DN(), static_cast<uint32_t>(patch.halves[0]));
-    against_ = hn::Set(DN(), static_cast<uint32_t>(patch.halves[1]));
+    along_ = hn::Set(DN(), static_cast<uint32_t>(patch.long_edges.halves[0]));
+    against_ = hn::Set(DN(), static_cast<uint32_t>(patch.long_edges.halves[1]));
   }
   // What was appended.
   void Finish() {
-    patch_.edge_count = edges_;
+    patch_.edges.count = edges_;
     patch_.next.count = triangles_;
   }
 
@@ -162,7 +162,7 @@ class Expander : private TriangleLanes {
   }
   void StoreShares(VN edges, const Shares& shares) {
     const size_t at = hn::GetLane(edges);
-    hn::StoreInterleaved2(shares.left, shares.right, DU(), &patch_.edge_shares[2 * at]);
+    hn::StoreInterleaved2(shares.left, shares.right, DU(), &patch_.edges.shares[2 * at]);
   }
 
   // Of the inner edges of a triangle with three long ones.
@@ -201,16 +201,16 @@ class Expander : private TriangleLanes {
                                 : Flagged<false>(rules_, length2, from, to);
     }
     hn::StoreU(length2, DF(), length2_ + at);
-    if (rules_.sites) hn::StoreU(site_, dn, &patch_.edge_site[at]);
+    if (rules_.sites) hn::StoreU(site_, dn, &patch_.edges.site[at]);
     any_long_ |= rules_.even && (rules_.current() || AnyLong(length2));
     edges_ += lanes_;
     return Counting(dn, at);
   }
 
   VF Distance2(VN index) const {
-    if (rules_.staged()) return Gather(patch_.distance2.data(), index);
+    if (rules_.staged()) return Gather(patch_.vertices.distance2.data(), index);
     // A vertex is 16 floats.
-    const float* floats = &patch_.vertex[0].eye_distance2;
+    const float* floats = &patch_.vertices.value[0].eye_distance2;
     return hn::PromoteTo(DF(), Gather(floats, hn::ShiftLeft<4>(index)));
   }
 
