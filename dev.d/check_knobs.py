@@ -16,8 +16,8 @@ FOLDERS = ['engine/animation', 'engine/formats', 'engine/image', 'engine/knobs',
            'engine/scene', 'client', 'server', 'worker']
 # These read and write the parameter files of 1989 and the scenes that `fjord import` makes of them.
 FORMATS = {'engine/formats/par_file.cpp', 'engine/formats/import.cpp'}
-# Names of other things as well: of a method, of a layer of a picture, of an attribute of SVG.
-SHARED = {'coast', 'color', 'width'}
+# Names of other things as well: of a method, of a layer, of an attribute of SVG, of what every object has.
+SHARED = {'coast', 'color', 'seed', 'width'}
 
 
 def names(fjord):
