@@ -68,7 +68,8 @@ std::vector<float> DrawNearness(const BuiltFrame& frame, std::span<const ObjectP
     const TileRect& rect = lists.busy[tile];
     if (rect.height == 0) return;
     TileDraw draw;
-    draw.Draw(list, lists, tile, options);
+    StreamStats made;
+    draw.Draw(list, lists, tile, options, &made);
     for (int32_t y = rect.y; y < rect.bottom(); ++y) {
       const double* from = draw.buffer().depth() + draw.buffer().Index(rect.x, y, 0);
       float* to = &nearness[static_cast<size_t>(y) * view.width + static_cast<size_t>(rect.x)];
