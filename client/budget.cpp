@@ -8,6 +8,55 @@ namespace fjord {
 namespace {
 
 constexpr uint32_t kFramesLookedAt = 24;
+constexpr double kLarge = 1e8;    // leaves in view, some seconds of one core: worth advice
+constexpr double kWorthIt = .25;  // of them, with the other split
+
+// What the frame would make if an object under split SHOT, as fine all along as the nearest frame
+// of the shot asks for, were split ADAPTIVE, by each frame's own camera. Negative: there is no
+// telling.
+double AdaptiveEstimate(const Animation& animation, int object, uint32_t frame,
+                        const SceneOrigin& origin) {
+  const v1::Object& asked = animation.scene().objects(object);
+  if (asked.fractal().split() != v1::Fractal::SHOT || asked.fractal().has_epsilon()) return -1;
+  std::vector<Setting> settings = origin.settings;
+  settings.push_back({"objects[" + asked.name() + "].fractal.split", "ADAPTIVE"});
+  LoadResult loaded = LoadSceneFile(origin.file, settings);
+  if (!loaded.ok()) return -1;
+  const auto adaptive = Animation::Make(std::move(loaded.loaded));
+  if (!adaptive.ok()) return -1;
+  AssetSet assets;
+  const Result<v1::FrameScene> scene = (*adaptive)->Inbetween(frame, &assets);
+  if (!scene.ok()) return -1;
+  const Result<ObjectEstimate> estimate = EstimateObject(*scene, &assets, object);
+  return estimate.ok() ? estimate->in_view : -1;
+}
+
+// A clause for an object of which the frame makes `leaves`; empty where the other split is no help.
+std::string AdaptiveAdvice(const Animation& animation, int object, uint32_t frame, double leaves,
+                           const SceneOrigin& origin) {
+  const double adaptive = AdaptiveEstimate(animation, object, frame, origin);
+  if (!(adaptive >= 0 && adaptive <= kWorthIt * leaves)) return "";
+  return "split: ADAPTIVE, by each frame's own camera, would make about " + LeavesText(adaptive);
+}
+
+// For the frame that makes most.
+std::string AdviceFor(const Animation& animation, const FrameEstimate& worst, uint32_t frame,
+                      const SceneOrigin& origin) {
+  size_t largest = 0;
+  for (size_t i = 1; i < worst.objects.size(); ++i) {
+    if (worst.objects[i].in_view > worst.objects[largest].in_view) largest = i;
+  }
+  if (worst.objects.empty() || worst.objects[largest].in_view < kLarge) return "";
+  const auto object = static_cast<int>(largest);
+  const double leaves = worst.objects[largest].in_view;
+  const std::string adaptive = AdaptiveAdvice(animation, object, frame, leaves, origin);
+  if (adaptive.empty()) return "";
+  const Route route = Route().Then("objects", object);
+  const Place place = LocateField(origin.file, origin.settings, route.Then("fractal"));
+  return place.ToString() + ": note: frame " + std::to_string(frame) + ": " +
+         PrintRoute(animation.scene(), route) + ": split SHOT, as fine all along as the nearest " +
+         "frame asks for, makes about " + LeavesText(leaves) + " triangles; " + adaptive;
+}
 
 }  // namespace
 
@@ -41,32 +90,36 @@ Result<> CheckFrameBudget(const Animation& animation, const v1::FrameScene& fram
   const Route object = Route().Then("objects", over.object);
   const Route knob =
       over.knob.empty() ? object.Then("shape") : object.Then("fractal").Then(over.knob);
-  return MakeError(ErrorCode::kLimit,
-                   "frame " + std::to_string(number) + ": " +
-                       PrintRoute(animation.scene(), object) + ": " + over.message,
-                   LocateField(origin.file, origin.settings, knob));
+  std::string message = "frame " + std::to_string(number) + ": " +
+                        PrintRoute(animation.scene(), object) + ": " + over.message;
+  const std::string adaptive = AdaptiveAdvice(animation, over.object, number, budget, origin);
+  if (!adaptive.empty()) message += "; " + adaptive;
+  return MakeError(ErrorCode::kLimit, message, LocateField(origin.file, origin.settings, knob));
 }
 
 Result<> CheckBudget(const Animation& animation, const FrameSet& frames, double budget,
-                     Counted counted, const SceneOrigin& origin, FrameEstimate* worst) {
+                     Counted counted, const SceneOrigin& origin, BudgetReport* report) {
   const uint32_t last = frames.size() - 1;
   const uint32_t looks = std::min(last, kFramesLookedAt - 1);
+  uint32_t worst_frame = 0;
   for (uint32_t i = 0; i <= looks; ++i) {
     const uint32_t frame =
         frames[looks == 0 ? 0 : static_cast<uint32_t>(uint64_t{last} * i / looks)];
     AssetSet assets;
     const Result<v1::FrameScene> scene = animation.Inbetween(frame, &assets);
     if (!scene.ok()) return InScene(scene.error(), origin.file);
-    if (worst != nullptr) {
-      Result<FrameEstimate> estimate = EstimateFrame(*scene, &assets);
-      if (!estimate.ok()) return InScene(estimate.error(), origin.file);
-      if (worst->objects.empty() || estimate->all.leaves > worst->all.leaves) {
-        *worst = std::move(*estimate);
-      }
+    Result<FrameEstimate> estimate = EstimateFrame(*scene, &assets);
+    if (!estimate.ok()) return InScene(estimate.error(), origin.file);
+    const ObjectEstimate &now = estimate->all, &most = report->worst.all;
+    if (worst_frame == 0 || now.in_view > most.in_view ||
+        (now.in_view == most.in_view && now.leaves > most.leaves)) {
+      report->worst = std::move(*estimate);
+      worst_frame = frame;
     }
     Result<> held = CheckFrameBudget(animation, *scene, &assets, frame, budget, counted, origin);
     if (!held.ok()) return held;
   }
+  report->advice = AdviceFor(animation, report->worst, worst_frame, origin);
   return Ok{};
 }
 

@@ -28,9 +28,15 @@ Result<> CheckFrameBudget(const Animation& animation, const v1::FrameScene& fram
                           const AssetResolver* assets, uint32_t number, double budget,
                           Counted counted, const SceneOrigin& origin);
 
-// The same for some of the frames: the first, the last and an even choice between. `worst`
-// (may be null): the largest estimate found.
+// What was found besides.
+struct BudgetReport {
+  FrameEstimate worst;  // the largest estimate
+  // A line with its place where a frame is large that another split would make small; else empty.
+  std::string advice;
+};
+
+// The same for some of the frames: the first, the last and an even choice between.
 Result<> CheckBudget(const Animation& animation, const FrameSet& frames, double budget,
-                     Counted counted, const SceneOrigin& origin, FrameEstimate* worst = nullptr);
+                     Counted counted, const SceneOrigin& origin, BudgetReport* report);
 
 }  // namespace fjord

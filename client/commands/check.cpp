@@ -102,10 +102,11 @@ Errors CheckCost(const std::string& path, const Animation& animation, const Opti
                  const std::vector<Setting>& settings, Json* found) {
   const Result<double> budget = ParseBudget(options.budget, kFrameBudget);
   if (!budget.ok()) return {budget.error()};
-  FrameEstimate worst;
+  BudgetReport report;
   const Result<> held =
       CheckBudget(animation, FrameSet(animation.first_frame(), animation.last_frame()), *budget,
-                  Counted::kInView, {path, settings}, &worst);
+                  Counted::kInView, {path, settings}, &report);
+  const FrameEstimate& worst = report.worst;
   *found = EstimateJson(worst.all);
   Json objects = Json::array();
   for (size_t i = 0; i < worst.objects.size(); ++i) {
@@ -114,6 +115,8 @@ Errors CheckCost(const std::string& path, const Animation& animation, const Opti
   }
   (*found)["objects"] = std::move(objects);
   if (!held.ok()) return {held.error()};
+  if (!report.advice.empty()) (*found)["advice"] = report.advice;
+  if (!report.advice.empty() && !options.json) console::Note(report.advice);
   if (!options.json) {
     console::Note(path + ": at most about " + LeavesText(worst.all.in_view) +
                   " triangles and segments in a frame's picture, " + LeavesText(worst.all.leaves) +

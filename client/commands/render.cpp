@@ -78,9 +78,12 @@ int RunRender(const Options& options) {
   if (!frames.ok()) return console::Fail(frames.error());
 
   const SceneOrigin origin{options.scene, *settings};
-  if (const Result<> held = CheckBudget(animation, *frames, *budget, Counted::kInView, origin);
+  BudgetReport estimates;
+  if (const Result<> held =
+          CheckBudget(animation, *frames, *budget, Counted::kInView, origin, &estimates);
       !held.ok())
     return console::Fail(held.error());
+  if (!estimates.advice.empty()) console::Note(estimates.advice);
   const auto format = static_cast<PixelFormat>(animation.scene().output().format());
   FrameFolder::Order order{options.folder,
                            DescribeScene(animation.scene(), options.scene, scene.digest),

@@ -97,9 +97,11 @@ int RunSubmit(const Options& options) {
   if (*budget < kNoBudget) {
     const auto animation = Animation::Make(loaded.loaded);
     if (!animation.ok()) return console::Fail(InScene(animation.error(), options.scene));
-    const Result<> held =
-        CheckBudget(**animation, *frames, *budget, Counted::kInView, {options.scene, *settings});
+    BudgetReport report;
+    const Result<> held = CheckBudget(**animation, *frames, *budget, Counted::kInView,
+                                      {options.scene, *settings}, &report);
     if (!held.ok()) return console::Fail(held.error());
+    if (!report.advice.empty()) console::Note(report.advice);
   }
   FarmClient client(options.farm.server, options.farm.Waiting());
   const Result<v1::SubmitResponse> submitted =
