@@ -1,15 +1,14 @@
 #include "client/budget.h"
 
 #include <charconv>
+#include <utility>
 
 #include "engine/scene/locate.h"
 
 namespace fjord {
 namespace {
 
-constexpr uint32_t kFramesLookedAt = 24;
-constexpr double kLarge = 1e8;    // leaves in view, some seconds of one core: worth advice
-constexpr double kWorthIt = .25;  // of them, with the other split
+constexpr double kWorthIt = .25;  // of the leaves, with the other split
 
 // What the frame would make if an object under split SHOT, as fine all along as the nearest frame
 // of the shot asks for, were split ADAPTIVE, by each frame's own camera. Negative: there is no
@@ -31,34 +30,14 @@ double AdaptiveEstimate(const Animation& animation, int object, uint32_t frame,
   return estimate.ok() ? estimate->in_view : -1;
 }
 
-// A clause for an object of which the frame makes `leaves`; empty where the other split is no help.
+}  // namespace
+
 std::string AdaptiveAdvice(const Animation& animation, int object, uint32_t frame, double leaves,
                            const SceneOrigin& origin) {
   const double adaptive = AdaptiveEstimate(animation, object, frame, origin);
   if (!(adaptive >= 0 && adaptive <= kWorthIt * leaves)) return "";
   return "split: ADAPTIVE, by each frame's own camera, would make about " + LeavesText(adaptive);
 }
-
-// For the frame that makes most.
-std::string AdviceFor(const Animation& animation, const FrameEstimate& worst, uint32_t frame,
-                      const SceneOrigin& origin) {
-  size_t largest = 0;
-  for (size_t i = 1; i < worst.objects.size(); ++i) {
-    if (worst.objects[i].in_view > worst.objects[largest].in_view) largest = i;
-  }
-  if (worst.objects.empty() || worst.objects[largest].in_view < kLarge) return "";
-  const auto object = static_cast<int>(largest);
-  const double leaves = worst.objects[largest].in_view;
-  const std::string adaptive = AdaptiveAdvice(animation, object, frame, leaves, origin);
-  if (adaptive.empty()) return "";
-  const Route route = Route().Then("objects", object);
-  const Place place = LocateField(origin.file, origin.settings, route.Then("fractal"));
-  return place.ToString() + ": note: frame " + std::to_string(frame) + ": " +
-         PrintRoute(animation.scene(), route) + ": split SHOT, as fine all along as the nearest " +
-         "frame asks for, makes about " + LeavesText(leaves) + " triangles; " + adaptive;
-}
-
-}  // namespace
 
 void AddBudget(CLI::App* command, std::string* budget, const std::string& fallback) {
   command->add_option("--budget", *budget,
@@ -95,32 +74,6 @@ Result<> CheckFrameBudget(const Animation& animation, const v1::FrameScene& fram
   const std::string adaptive = AdaptiveAdvice(animation, over.object, number, budget, origin);
   if (!adaptive.empty()) message += "; " + adaptive;
   return MakeError(ErrorCode::kLimit, message, LocateField(origin.file, origin.settings, knob));
-}
-
-Result<> CheckBudget(const Animation& animation, const FrameSet& frames, double budget,
-                     Counted counted, const SceneOrigin& origin, BudgetReport* report) {
-  const uint32_t last = frames.size() - 1;
-  const uint32_t looks = std::min(last, kFramesLookedAt - 1);
-  uint32_t worst_frame = 0;
-  for (uint32_t i = 0; i <= looks; ++i) {
-    const uint32_t frame =
-        frames[looks == 0 ? 0 : static_cast<uint32_t>(uint64_t{last} * i / looks)];
-    AssetSet assets;
-    const Result<v1::FrameScene> scene = animation.Inbetween(frame, &assets);
-    if (!scene.ok()) return InScene(scene.error(), origin.file);
-    Result<FrameEstimate> estimate = EstimateFrame(*scene, &assets);
-    if (!estimate.ok()) return InScene(estimate.error(), origin.file);
-    const ObjectEstimate &now = estimate->all, &most = report->worst.all;
-    if (worst_frame == 0 || now.in_view > most.in_view ||
-        (now.in_view == most.in_view && now.leaves > most.leaves)) {
-      report->worst = std::move(*estimate);
-      worst_frame = frame;
-    }
-    Result<> held = CheckFrameBudget(animation, *scene, &assets, frame, budget, counted, origin);
-    if (!held.ok()) return held;
-  }
-  report->advice = AdviceFor(animation, report->worst, worst_frame, origin);
-  return Ok{};
 }
 
 }  // namespace fjord

@@ -28,15 +28,9 @@ Result<> CheckFrameBudget(const Animation& animation, const v1::FrameScene& fram
                           const AssetResolver* assets, uint32_t number, double budget,
                           Counted counted, const SceneOrigin& origin);
 
-// What was found besides.
-struct BudgetReport {
-  FrameEstimate worst;  // the largest estimate
-  // A line with its place where a frame is large that another split would make small; else empty.
-  std::string advice;
-};
-
-// The same for some of the frames: the first, the last and an even choice between.
-Result<> CheckBudget(const Animation& animation, const FrameSet& frames, double budget,
-                     Counted counted, const SceneOrigin& origin, BudgetReport* report);
+// How many leaves in view the frame's object would have instead of `leaves` under split ADAPTIVE,
+// as a clause; empty where that would be no help.
+std::string AdaptiveAdvice(const Animation& animation, int object, uint32_t frame, double leaves,
+                           const SceneOrigin& origin);
 
 }  // namespace fjord
