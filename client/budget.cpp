@@ -1,15 +1,43 @@
 #include "client/budget.h"
 
 #include <charconv>
+#include <utility>
 
 #include "engine/scene/locate.h"
 
 namespace fjord {
 namespace {
 
-constexpr uint32_t kFramesLookedAt = 24;
+constexpr double kWorthIt = .25;  // of the leaves, with the other split
+
+// What the frame would make if an object under split SHOT, as fine all along as the nearest frame
+// of the shot asks for, were split ADAPTIVE, by each frame's own camera. Negative: there is no
+// telling.
+double AdaptiveEstimate(const Animation& animation, int object, uint32_t frame,
+                        const SceneOrigin& origin) {
+  const v1::Object& asked = animation.scene().objects(object);
+  if (asked.fractal().split() != v1::Fractal::SHOT || asked.fractal().has_epsilon()) return -1;
+  std::vector<Setting> settings = origin.settings;
+  settings.push_back({"objects[" + asked.name() + "].fractal.split", "ADAPTIVE"});
+  LoadResult loaded = LoadSceneFile(origin.file, settings);
+  if (!loaded.ok()) return -1;
+  const auto adaptive = Animation::Make(std::move(loaded.loaded));
+  if (!adaptive.ok()) return -1;
+  AssetSet assets;
+  const Result<v1::FrameScene> scene = (*adaptive)->Inbetween(frame, &assets);
+  if (!scene.ok()) return -1;
+  const Result<ObjectEstimate> estimate = EstimateObject(*scene, &assets, object);
+  return estimate.ok() ? estimate->in_view : -1;
+}
 
 }  // namespace
+
+std::string AdaptiveAdvice(const Animation& animation, int object, uint32_t frame, double leaves,
+                           const SceneOrigin& origin) {
+  const double adaptive = AdaptiveEstimate(animation, object, frame, origin);
+  if (!(adaptive >= 0 && adaptive <= kWorthIt * leaves)) return "";
+  return "split: ADAPTIVE, by each frame's own camera, would make about " + LeavesText(adaptive);
+}
 
 void AddBudget(CLI::App* command, std::string* budget, const std::string& fallback) {
   command->add_option("--budget", *budget,
@@ -41,33 +69,11 @@ Result<> CheckFrameBudget(const Animation& animation, const v1::FrameScene& fram
   const Route object = Route().Then("objects", over.object);
   const Route knob =
       over.knob.empty() ? object.Then("shape") : object.Then("fractal").Then(over.knob);
-  return MakeError(ErrorCode::kLimit,
-                   "frame " + std::to_string(number) + ": " +
-                       PrintRoute(animation.scene(), object) + ": " + over.message,
-                   LocateField(origin.file, origin.settings, knob));
-}
-
-Result<> CheckBudget(const Animation& animation, const FrameSet& frames, double budget,
-                     Counted counted, const SceneOrigin& origin, FrameEstimate* worst) {
-  const uint32_t last = frames.size() - 1;
-  const uint32_t looks = std::min(last, kFramesLookedAt - 1);
-  for (uint32_t i = 0; i <= looks; ++i) {
-    const uint32_t frame =
-        frames[looks == 0 ? 0 : static_cast<uint32_t>(uint64_t{last} * i / looks)];
-    AssetSet assets;
-    const Result<v1::FrameScene> scene = animation.Inbetween(frame, &assets);
-    if (!scene.ok()) return InScene(scene.error(), origin.file);
-    if (worst != nullptr) {
-      Result<FrameEstimate> estimate = EstimateFrame(*scene, &assets);
-      if (!estimate.ok()) return InScene(estimate.error(), origin.file);
-      if (worst->objects.empty() || estimate->all.leaves > worst->all.leaves) {
-        *worst = std::move(*estimate);
-      }
-    }
-    Result<> held = CheckFrameBudget(animation, *scene, &assets, frame, budget, counted, origin);
-    if (!held.ok()) return held;
-  }
-  return Ok{};
+  std::string message = "frame " + std::to_string(number) + ": " +
+                        PrintRoute(animation.scene(), object) + ": " + over.message;
+  const std::string adaptive = AdaptiveAdvice(animation, over.object, number, budget, origin);
+  if (!adaptive.empty()) message += "; " + adaptive;
+  return MakeError(ErrorCode::kLimit, message, LocateField(origin.file, origin.settings, knob));
 }
 
 }  // namespace fjord

@@ -28,9 +28,9 @@ Result<> CheckFrameBudget(const Animation& animation, const v1::FrameScene& fram
                           const AssetResolver* assets, uint32_t number, double budget,
                           Counted counted, const SceneOrigin& origin);
 
-// The same for some of the frames: the first, the last and an even choice between. `worst`
-// (may be null): the largest estimate found.
-Result<> CheckBudget(const Animation& animation, const FrameSet& frames, double budget,
-                     Counted counted, const SceneOrigin& origin, FrameEstimate* worst = nullptr);
+// How many leaves in view the frame's object would have instead of `leaves` under split ADAPTIVE,
+// as a clause; empty where that would be no help.
+std::string AdaptiveAdvice(const Animation& animation, int object, uint32_t frame, double leaves,
+                           const SceneOrigin& origin);
 
 }  // namespace fjord

@@ -106,8 +106,8 @@ Result<Picture> MakeContactSheet(const std::vector<ListedFrame>& frames,
                          "; --allow-mixed takes both",
                      {chosen[i].file, 0, 0});
     }
-    const std::vector<float> thumbnail =
-        BoxFilter(LinearSamples(*picture), picture->width, picture->height, width, height);
+    const std::vector<float> thumbnail = BoxFilter(LinearSamples(*picture, Behind::kChecker),
+                                                   picture->width, picture->height, width, height);
     const size_t left = layout.gap + (i % columns) * (width + layout.gap);
     const size_t top = layout.gap + (i / columns) * (height + layout.gap);
     for (size_t y = 0; y < height; ++y) {

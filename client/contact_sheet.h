@@ -1,4 +1,5 @@
-// A contact sheet: many frames as thumbnails on one picture, box-filtered in linear light.
+// A contact sheet: many frames as thumbnails on one picture, box-filtered in linear light;
+// transparent ones over grey squares.
 #pragma once
 
 #include <string>

@@ -59,8 +59,8 @@ std::vector<std::string> FfmpegCommand(const Picture& first, double rate,
 
 }  // namespace
 
-Result<> MakeMovie(const std::vector<ListedFrame>& frames, double rate, const std::string& output,
-                   const std::atomic<bool>* cancel) {
+Result<MovieReport> MakeMovie(const std::vector<ListedFrame>& frames, double rate,
+                              const std::string& output, const std::atomic<bool>* cancel) {
   if (frames.empty()) return Invalid("there are no pictures for a movie");
   const Result<Picture> first = ReadFrame(frames.front());
   if (!first.ok()) return first.error();
@@ -98,7 +98,8 @@ Result<> MakeMovie(const std::vector<ListedFrame>& frames, double rate, const st
     result = MakeError(ErrorCode::kIo, std::strerror(errno), {output, 0, 0});
   std::error_code ignored;
   if (!result.ok()) std::filesystem::remove(partial, ignored);
-  return result;
+  if (!result.ok()) return result.error();
+  return MovieReport{first->alpha};
 }
 
 }  // namespace fjord

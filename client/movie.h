@@ -12,8 +12,12 @@
 
 namespace fjord {
 
+struct MovieReport {
+  bool over_black = false;  // the frames are transparent, which a movie can not be
+};
+
 // H.264, yuv420p, crf 16. `output` appears when it is complete. kCancelled when the flag is set.
-Result<> MakeMovie(const std::vector<ListedFrame>& frames, double rate, const std::string& output,
-                   const std::atomic<bool>* cancel);
+Result<MovieReport> MakeMovie(const std::vector<ListedFrame>& frames, double rate,
+                              const std::string& output, const std::atomic<bool>* cancel);
 
 }  // namespace fjord

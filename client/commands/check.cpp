@@ -1,6 +1,8 @@
 #include <atomic>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "client/exit_code.h"
 #include "client/files.h"
 #include "client/interrupt.h"
+#include "client/look_ahead.h"
 #include "client/progress.h"
 #include "engine/animation/check_animation.h"
 #include "engine/formats/par_file.h"
@@ -19,6 +22,8 @@
 
 namespace fjord {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct Options {
   std::vector<std::string> files;
@@ -102,10 +107,11 @@ Errors CheckCost(const std::string& path, const Animation& animation, const Opti
                  const std::vector<Setting>& settings, Json* found) {
   const Result<double> budget = ParseBudget(options.budget, kFrameBudget);
   if (!budget.ok()) return {budget.error()};
-  FrameEstimate worst;
+  LookAhead ahead;
   const Result<> held =
-      CheckBudget(animation, FrameSet(animation.first_frame(), animation.last_frame()), *budget,
-                  Counted::kInView, {path, settings}, &worst);
+      LookAtFrames(animation, FrameSet(animation.first_frame(), animation.last_frame()), *budget,
+                   {path, settings}, &ahead);
+  const FrameEstimate& worst = ahead.worst;
   *found = EstimateJson(worst.all);
   Json objects = Json::array();
   for (size_t i = 0; i < worst.objects.size(); ++i) {
@@ -114,6 +120,8 @@ Errors CheckCost(const std::string& path, const Animation& animation, const Opti
   }
   (*found)["objects"] = std::move(objects);
   if (!held.ok()) return {held.error()};
+  if (!ahead.advice.empty()) (*found)["advice"] = ahead.advice;
+  if (!ahead.advice.empty() && !options.json) console::Note(ahead.advice);
   if (!options.json) {
     console::Note(path + ": at most about " + LeavesText(worst.all.in_view) +
                   " triangles and segments in a frame's picture, " + LeavesText(worst.all.leaves) +
@@ -128,15 +136,43 @@ struct Found {
   Json estimate;
 };
 
+// Defects of the shapes that a scene names, which render may do without but their fractals show:
+// cracks, slivers, sides turned in.
+Errors CheckShapesOf(const std::string& path, const v1::Scene& scene) {
+  const fs::path folder = fs::path(path).parent_path();
+  std::set<std::string> seen;
+  Errors errors;
+  const auto look = [&](const v1::Shape& shape) {
+    const v1::File& file = shape.file();
+    if (file.path().empty() || file.curve() > 0 || !seen.insert(file.path()).second) return;
+    for (Error& error : CheckShape((folder / file.path()).string())) {
+      errors.push_back(std::move(error));
+    }
+  };
+  for (const v1::Object& object : scene.objects()) {
+    if (object.has_shape()) look(object.shape());
+    for (const v1::Key& key : object.key()) look(key.shape());
+  }
+  return errors;
+}
+
 Errors CheckScene(const std::string& path, const Options& options, Found* found) {
   const Result<std::vector<Setting>> settings = SettingsOf(options.changes, path);
   if (!settings.ok()) return {settings.error()};
   OpenedScene scene;
   Errors errors = OpenScene(path, *settings, &scene);
-  if (errors.empty())
-    errors = CheckCost(path, *scene.animation, options, *settings, &found->estimate);
-  if (!errors.empty() || !options.animation) return errors;
-  return CheckMotion(path, *scene.animation, options.json, &found->motion);
+  if (!errors.empty()) return errors;
+  errors = CheckShapesOf(path, scene.animation->scene());
+  const auto add = [&](const Errors& more) {
+    errors.insert(errors.end(), more.begin(), more.end());
+    return more.empty();
+  };
+  const bool affordable =
+      add(CheckCost(path, *scene.animation, options, *settings, &found->estimate));
+  if (affordable && options.animation) {
+    add(CheckMotion(path, *scene.animation, options.json, &found->motion));
+  }
+  return errors;
 }
 
 Errors CheckFile(const std::string& path, const Options& options, Found* found) {
@@ -164,8 +200,10 @@ int RunCheck(const Options& options) {
     Json defects = Json::array();
     for (const Error& error : errors) {
       code = kExitFailed;
-      defects.push_back(
-          {{"line", error.place.line}, {"column", error.place.column}, {"message", error.message}});
+      defects.push_back({{"file", error.place.file.empty() ? path : error.place.file},
+                         {"line", error.place.line},
+                         {"column", error.place.column},
+                         {"message", error.message}});
     }
     list.push_back({{"file", path}, {"good", errors.empty()}, {"defects", std::move(defects)}});
     if (!found.estimate.is_null()) list.back()["estimate"] = std::move(found.estimate);

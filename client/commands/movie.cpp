@@ -50,8 +50,10 @@ int MovieOfFolder(const Options& options, const FrameChoice& choice, const std::
   const Result<FrameList> frames = FramesOf(folder, choice);
   if (!frames.ok()) return console::Fail(frames.error());
   const double rate = options.rate > 0 ? options.rate : frames->rate;
-  const Result<> made = MakeMovie(frames->frames, rate, options.output, &CatchInterrupts());
+  const Result<MovieReport> made =
+      MakeMovie(frames->frames, rate, options.output, &CatchInterrupts());
   if (!made.ok()) return console::Fail(made.error());
+  if (made->over_black) console::Note("the frames are transparent: laid over black");
   console::Note(std::to_string(frames->frames.size()) + " frames in " + options.output);
   return kExitDone;
 }

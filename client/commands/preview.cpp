@@ -65,7 +65,9 @@ int RunPreview(const Options& options) {
   if (const Result<> written = WriteFileAtomically(options.output, drawn->bytes); !written.ok())
     return console::Fail(written.error());
   std::string line = std::to_string(drawn->stats.edges) + " edges";
-  if (drawn->stats.coarser > 1) {
+  if (drawn->stats.longest_only) {
+    line += ", the longest in view of the coarse shapes'";
+  } else if (drawn->stats.coarser > 1) {
     char factor[32];
     std::snprintf(factor, sizeof factor, "%g", drawn->stats.coarser);
     line += std::string(", ") + factor + " times coarser than the picture, to stay under " +
@@ -86,7 +88,9 @@ void AddPreview(CLI::App& app, Run* run) {
       ->check(CLI::Range(1u, 1000000u));
   command->add_option("-o,--output", options->output, "A .png or .svg file")->required();
   command
-      ->add_option("--edges", options->edges, "Draw no more edges than this; coarser where needed")
+      ->add_option(
+          "--edges", options->edges,
+          "Draw no more edges than this: coarser where needed, of coarse shapes the longest")
       ->capture_default_str()
       ->check(CLI::Range(size_t{100}, size_t{100000000}));
   AddSceneChanges(command, &options->changes);

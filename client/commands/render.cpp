@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "client/budget.h"
 #include "client/commands/commands.h"
 #include "client/commands/common.h"
 #include "client/console.h"
@@ -12,6 +11,7 @@
 #include "client/frame_folder.h"
 #include "client/interrupt.h"
 #include "client/local_render.h"
+#include "client/look_ahead.h"
 #include "engine/animation/frame_key.h"
 #include "engine/image/picture.h"
 
@@ -78,9 +78,10 @@ int RunRender(const Options& options) {
   if (!frames.ok()) return console::Fail(frames.error());
 
   const SceneOrigin origin{options.scene, *settings};
-  if (const Result<> held = CheckBudget(animation, *frames, *budget, Counted::kInView, origin);
-      !held.ok())
+  LookAhead ahead;
+  if (const Result<> held = LookAtFrames(animation, *frames, *budget, origin, &ahead); !held.ok())
     return console::Fail(held.error());
+  if (!ahead.advice.empty()) console::Note(ahead.advice);
   const auto format = static_cast<PixelFormat>(animation.scene().output().format());
   FrameFolder::Order order{options.folder,
                            DescribeScene(animation.scene(), options.scene, scene.digest),

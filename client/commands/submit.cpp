@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "client/budget.h"
 #include "client/commands/commands.h"
 #include "client/commands/common.h"
 #include "client/commands/farm_options.h"
@@ -16,6 +15,7 @@
 #include "client/find_job.h"
 #include "client/follow_job.h"
 #include "client/job_text.h"
+#include "client/look_ahead.h"
 #include "engine/base/digest.h"
 #include "proto/fjord/protocol.h"
 
@@ -97,9 +97,11 @@ int RunSubmit(const Options& options) {
   if (*budget < kNoBudget) {
     const auto animation = Animation::Make(loaded.loaded);
     if (!animation.ok()) return console::Fail(InScene(animation.error(), options.scene));
+    LookAhead ahead;
     const Result<> held =
-        CheckBudget(**animation, *frames, *budget, Counted::kInView, {options.scene, *settings});
+        LookAtFrames(**animation, *frames, *budget, {options.scene, *settings}, &ahead);
     if (!held.ok()) return console::Fail(held.error());
+    if (!ahead.advice.empty()) console::Note(ahead.advice);
   }
   FarmClient client(options.farm.server, options.farm.Waiting());
   const Result<v1::SubmitResponse> submitted =

@@ -93,6 +93,7 @@ void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame) {
   if (now.output().dither() && now.output().format() == v1::Output::PNG8) {
     output->set_dither(kDitherVersion);
   }
+  output->set_alpha(now.output().alpha());
 
   v1::FrameCamera* camera = frame->mutable_camera();
   Append(now.camera().eye(), camera->mutable_eye());
@@ -133,12 +134,20 @@ void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame) {
   }
 }
 
-Result<> AssembleObject(const v1::Object& now, uint32_t picture_height, v1::FrameObject* object) {
+Result<> AssembleObject(const v1::Object& now, bool curve, uint32_t picture_height,
+                        v1::FrameObject* object) {
   const ObjectTransform transform(now.transform());
   if (!transform.IsIdentity()) {
     for (const double entry : transform.Rows()) object->add_transform(entry);
   }
-  return AssembleMaterial(now.material(), picture_height, object->mutable_material());
+  v1::FrameMaterial* material = object->mutable_material();
+  if (Result<> done = AssembleMaterial(now.material(), picture_height, material); !done)
+    return done;
+  // the border of what is filled needs no help to be seen
+  if (curve && !material->fill() && material->line_width() < 1) {
+    material->set_fading(kFadingVersion);
+  }
+  return {};
 }
 
 void AssembleReads(const v1::Object& whole, uint32_t number, v1::FrameObject* object,

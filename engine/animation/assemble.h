@@ -11,8 +11,9 @@ namespace fjord {
 // Output, camera, background, lights and sea.
 void AssembleSurroundings(const v1::Scene& now, v1::FrameScene* frame);
 
-// All but the shape (frame_geometry.h) and the fractal.
-Result<> AssembleObject(const v1::Object& now, uint32_t picture_height, v1::FrameObject* object);
+// All but the shape (frame_geometry.h) and the fractal. `curve`: it is drawn as strokes.
+Result<> AssembleObject(const v1::Object& now, bool curve, uint32_t picture_height,
+                        v1::FrameObject* object);
 
 // What texture stages read beside the surface itself, where any does: the rule of (u,v) that the
 // shape of the rest pose has, and the time. `whole`: the object as it is in the scene.

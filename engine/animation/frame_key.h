@@ -20,6 +20,10 @@ inline constexpr uint32_t kCoreShapeVersion = 2;
 // change of its pattern.
 inline constexpr uint32_t kDitherVersion = 1;
 
+// What FrameMaterial.fading says of strokes that are thinner than a pixel. Raised with any change
+// of how they are drawn.
+inline constexpr uint32_t kFadingVersion = 1;
+
 // The bytes that are digested: a header with the core shape version and the version of each
 // registry entry used, then the walk. NaN anywhere, or an unknown registry entry: kInvalid.
 Result<std::string> FrameKeyBytes(const v1::FrameScene& frame);

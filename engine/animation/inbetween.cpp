@@ -203,7 +203,8 @@ class SceneAnimation final : public Animation {
         return AtFrame(frame, object, "tracks take ramp heights out of order");
       }
     }
-    if (Result<> done = AssembleObject(object, height, message); !done)
+    const bool curve = plan.motion.topology().curve;
+    if (Result<> done = AssembleObject(object, curve, height, message); !done)
       return AtFrame(frame, object, done.error().message);
     AssembleReads(scene().objects(index), frame, message, out);
     AssemblePlacements(plan.placements, plan.placements_asset, message, assets);

@@ -78,16 +78,17 @@ uint32_t DitherOffset(uint32_t x, uint32_t y, uint32_t channel) {
 }
 
 void EncodeDithered8(uint32_t x, uint32_t y, std::span<const float> linear,
-                     std::span<uint8_t> codes) {
+                     std::span<uint8_t> codes, uint32_t channels) {
   static const Steps kSteps;
-  FJORD_CHECK(linear.size() == codes.size() && linear.size() % 3 == 0, linear.size(), codes.size());
-  const uint32_t pixels = static_cast<uint32_t>(linear.size() / 3);
+  FJORD_CHECK(linear.size() == codes.size() && linear.size() % channels == 0, linear.size(),
+              codes.size());
+  const uint32_t pixels = static_cast<uint32_t>(linear.size() / channels);
   for (uint32_t i = 0; i < pixels;) {
     const uint32_t place = x + i + PushOf(y);
     const uint32_t end = std::min(pixels, i + kBrick - place % kBrick);
     for (uint32_t channel = 0; channel < 3; ++channel) {
       const uint32_t number = NumberOf(place / kBrick, y, channel);
-      for (uint32_t at = 3 * i + channel; at < 3 * end; at += 3) {
+      for (uint32_t at = channels * i + channel; at < channels * end; at += channels) {
         codes[at] = kSteps.Encode(linear[at], number);
       }
     }

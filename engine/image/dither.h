@@ -19,8 +19,8 @@ namespace fjord {
 uint32_t DitherOffset(uint32_t x, uint32_t y, uint32_t channel);
 
 // Pixels x.. of row y of the picture, RGB: each sample's 16-bit sRGB code plus its offset, divided
-// by 257. Values as for EncodeSrgb8.
+// by 257. Values as for EncodeSrgb8. With 4 channels a pixel the fourth code is left as it is.
 void EncodeDithered8(uint32_t x, uint32_t y, std::span<const float> linear,
-                     std::span<uint8_t> codes);
+                     std::span<uint8_t> codes, uint32_t channels = 3);
 
 }  // namespace fjord

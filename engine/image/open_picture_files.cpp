@@ -24,7 +24,7 @@ Result<const PictureFiles*> Open() {
     if (!fs::exists(path, none)) continue;
     void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     SetFloatEnvironment();
-    void* entry = module == nullptr ? nullptr : dlsym(module, "FjordPictureFiles2");
+    void* entry = module == nullptr ? nullptr : dlsym(module, "FjordPictureFiles3");
     if (entry == nullptr) {
       const char* why = dlerror();
       return MakeError(ErrorCode::kInternal,
@@ -32,7 +32,7 @@ Result<const PictureFiles*> Open() {
                            "); install Fjord anew",
                        Place{path.string()});
     }
-    return reinterpret_cast<decltype(&FjordPictureFiles2)>(entry)();
+    return reinterpret_cast<decltype(&FjordPictureFiles3)>(entry)();
   }
   return MakeError(ErrorCode::kInternal, std::string(kModule) +
                                              ", which reads and writes pictures, is not there; "

@@ -3,8 +3,10 @@
 #include <bit>
 #include <cstring>
 #include <map>
+#include <string_view>
 
 #include "engine/base/check.h"
+#include "engine/image/alpha.h"
 #include "engine/image/half.h"
 #include "engine/image/srgb.h"
 
@@ -52,19 +54,26 @@ uint32_t BytesPerSample(PixelFormat format) {
   return 0;
 }
 
-Picture Quantise(uint32_t width, uint32_t height, PixelFormat format,
-                 std::span<const float> linear) {
-  const size_t samples = size_t{width} * height * 3;
+Picture Quantise(uint32_t width, uint32_t height, PixelFormat format, std::span<const float> linear,
+                 Channels channels) {
+  Picture picture{width, height, format, {}, {}, channels == Channels::kRgba};
+  const size_t samples = size_t{width} * height * picture.channels();
   FJORD_CHECK(linear.size() == samples, width, height, linear.size());
-  Picture picture{width, height, format, {}, {}};
   picture.bytes.resize(samples * BytesPerSample(format));
+  std::vector<float> straight;
+  if (picture.alpha && FileEnding(format) == std::string_view("png")) {
+    ToStraight(linear, &straight);
+    linear = straight;
+  }
   switch (format) {
     case PixelFormat::kPng8:
       EncodeSrgb8(linear, picture.bytes);
+      if (picture.alpha) EncodeAlpha8(linear, picture.bytes);
       break;
     case PixelFormat::kPng16: {
       std::vector<uint16_t> codes(samples);
       EncodeSrgb16(linear, codes);
+      if (picture.alpha) EncodeAlpha16(linear, codes);
       std::memcpy(picture.bytes.data(), codes.data(), picture.bytes.size());
       break;
     }
@@ -109,8 +118,8 @@ Digest LayerDigest(const Picture& picture, std::span<const uint8_t> bytes, uint3
 }  // namespace
 
 Digest PixelDigest(const Picture& picture) {
-  const Digest color = LayerDigest(picture, picture.bytes, 3, BytesPerSample(picture.format),
-                                   TypeName(picture.format));
+  const Digest color = LayerDigest(picture, picture.bytes, picture.channels(),
+                                   BytesPerSample(picture.format), TypeName(picture.format));
   if (picture.layers.empty()) return color;
   std::map<std::string, Digest> digests = {{"color", color}};
   for (const PictureLayer& layer : picture.layers) {

@@ -28,22 +28,28 @@ struct PictureLayer {
   std::vector<float> samples;
 };
 
-// RGB, row by row from the top, in the byte order of this machine.
+// RGB, or RGBA where there is alpha (alpha.h), row by row from the top, in the byte order of this
+// machine.
 struct Picture {
   uint32_t width = 0;
   uint32_t height = 0;
   PixelFormat format = PixelFormat::kPng8;
-  std::vector<uint8_t> bytes;        // width * height * 3 * bytes a sample
+  std::vector<uint8_t> bytes;        // width * height * channels() * bytes a sample
   std::vector<PictureLayer> layers;  // by name, each once
+  bool alpha = false;
+
+  uint32_t channels() const { return alpha ? 4 : 3; }
 };
 
 uint32_t BytesPerSample(PixelFormat format);
 
-// Linear light to the format's samples. `linear` holds width*height*3 floats, top row first. PNG:
-// clamped to 0..1 and sRGB encoded by table; EXR: as it is, half rounded to nearest even. A NaN is
-// a broken invariant.
-Picture Quantise(uint32_t width, uint32_t height, PixelFormat format,
-                 std::span<const float> linear);
+enum class Channels : uint8_t { kRgb, kRgba };
+
+// Linear light to the format's samples. `linear` holds 3 floats a pixel, or 4 of associated colour
+// and alpha, top row first. PNG: straight, clamped to 0..1, colours sRGB encoded by table; EXR: as
+// it is, half rounded to nearest even. A NaN is a broken invariant.
+Picture Quantise(uint32_t width, uint32_t height, PixelFormat format, std::span<const float> linear,
+                 Channels channels = Channels::kRgb);
 
 Digest PixelDigest(const Picture& picture);
 

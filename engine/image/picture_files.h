@@ -25,7 +25,7 @@ struct PictureFiles {
 
 // The one function of the module. Its name counts up when PictureFiles changes, so that a program
 // and a module that do not belong together part with a message.
-extern "C" __attribute__((visibility("default"))) const PictureFiles* FjordPictureFiles2();
+extern "C" __attribute__((visibility("default"))) const PictureFiles* FjordPictureFiles3();
 
 // Opens the module at the first call; looks for it relative to the running program, as it is
 // installed (../lib/fjord) and as it is built. Thread-safe.

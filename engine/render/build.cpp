@@ -84,7 +84,12 @@ Material MaterialOf(const v1::FrameMaterial& from, Reader* read) {
   material.smooth = from.smooth();
   material.vertex_color = from.vertex_color();
   material.line_width = read->Number(from.line_width(), 0, 4096, "material.line_width");
+  if (from.fading() != 0 && from.fading() != kFadingVersion) {
+    read->Fail(Inconsistent("unknown version of fading strokes"));
+  }
   material.fill = from.fill();
+  material.fading =
+      from.fading() != 0 && !material.fill && material.line_width > 0 && material.line_width < 1;
   if (from.ramp_size() % 4 != 0 || !Finite(from.ramp())) {
     read->Fail(Inconsistent("a ramp needs height r g b of each stop, all finite"));
     return material;
@@ -253,6 +258,7 @@ Result<BuiltFrame> BuildFrame(const v1::FrameScene& from, const AssetResolver* a
     return Inconsistent("unknown version of the dither");
   }
   frame.dither = from.output().dither() != 0 && frame.format == PixelFormat::kPng8;
+  frame.alpha = from.output().alpha();
   const v1::FrameCamera& camera = from.camera();
   frame.camera.eye = read.Vector(camera.eye(), Vec3(0), "camera.eye");
   frame.camera.look_at = read.Vector(camera.look_at(), Vec3(0), "camera.look_at");

@@ -62,7 +62,11 @@ struct Material {
   bool vertex_color = false;
   std::vector<RampStop> ramp;  // heights ascending; none: color
   double line_width = 1;       // pixels of this picture
+  bool fading = false;         // that is less than a pixel: drawn a pixel wide, but translucent
   bool fill = false;           // closed curves
+
+  double drawn_width() const { return fading ? 1 : line_width; }
+  float opacity() const { return fading ? static_cast<float>(line_width) : 1; }
 };
 
 // Rows of 4: object to world.
@@ -88,6 +92,7 @@ struct BuiltFrame {
   uint32_t samples = 4;  // 1, 4 or 16
   bool depth_layer = false;
   bool dither = false;  // kPng8
+  bool alpha = false;   // no sky, and a fourth channel
   Camera camera;
   Sky sky;
   Rgb ambient{0};

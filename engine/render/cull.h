@@ -61,6 +61,10 @@ struct TileLists {
   std::vector<TileRect> busy;  // the rows of a tile that anything may touch; height 0: none
   std::vector<uint32_t> start;
   std::vector<RootRef> refs;
+
+  std::span<const RootRef> Of(size_t tile) const {
+    return std::span(refs).subspan(start[tile], start[tile + 1] - start[tile]);
+  }
 };
 
 // Tiles lie on the grid of the whole picture, cut to `region`.

@@ -5,8 +5,16 @@
 
 namespace fjord {
 
+namespace {
+
+float DistanceOf(const FrameSetup& setup, double depth) {
+  return static_cast<float>(setup.view.orthographic ? -depth : 1 / depth);
+}
+
+}  // namespace
+
 void MeasureDepth(const FrameSetup& setup, const TileRect& tile, const TileBuffer& drawn,
-                  std::span<float> distance) {
+                  std::span<const Fragment> fragments, std::span<float> distance) {
   constexpr double kNothing = -std::numeric_limits<double>::infinity();
   const std::span<const SamplePlace> places = SamplePlaces(setup.frame.samples);
   size_t pixel = 0;
@@ -29,9 +37,13 @@ void MeasureDepth(const FrameSetup& setup, const TileRect& tile, const TileBuffe
       if (nearest == kNothing) {
         distance[pixel] = std::numeric_limits<float>::infinity();
       } else {
-        distance[pixel] = static_cast<float>(setup.view.orthographic ? -nearest : 1 / nearest);
+        distance[pixel] = DistanceOf(setup, nearest);
       }
     }
+  }
+  for (const Fragment& fragment : fragments) {
+    float& nearest = distance[fragment.sample / places.size()];
+    nearest = std::min(nearest, DistanceOf(setup, fragment.depth));
   }
 }
 

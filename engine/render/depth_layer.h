@@ -3,14 +3,16 @@
 
 #include <span>
 
+#include "engine/render/fragments.h"
 #include "engine/render/frame_setup.h"
 #include "engine/render/tile_buffer.h"
 
 namespace fjord {
 
 // `distance` holds a float for each pixel of the tile; infinity where the sky is. `drawn` holds
-// rows of the tile, in its full width; nothing was drawn in the others.
+// rows of the tile, in its full width; nothing opaque was drawn in the others. What is translucent
+// counts as what is opaque does, however little it covers.
 void MeasureDepth(const FrameSetup& setup, const TileRect& tile, const TileBuffer& drawn,
-                  std::span<float> distance);
+                  std::span<const Fragment> fragments, std::span<float> distance);
 
 }  // namespace fjord

@@ -15,7 +15,7 @@ bool NoneHit(const uint32_t* hit) {
 
 }  // namespace
 
-void Film::StartTile(const FrameSetup& setup, const TileRect& tile) {
+void Film::Start(const FrameSetup& setup, const TileRect& tile) {
   setup_ = &setup;
   tile_ = tile;
   places_ = SamplePlaces(setup.frame.samples);
@@ -24,6 +24,27 @@ void Film::StartTile(const FrameSetup& setup, const TileRect& tile) {
   owner_.resize(count + kPadding);
   for (auto& channel : row_) channel.resize(count + kPadding);
   is_present_.assign(setup.owners.size(), 0);
+  fragments_.clear();
+}
+
+void Film::AddFragments(uint32_t owner, const TileBuffer& drawn) {
+  const size_t row = static_cast<size_t>(tile_.width) * places_.size();
+  for (int32_t y = drawn.rect().y; y < drawn.rect().bottom(); ++y) {
+    const uint32_t* hit = drawn.hit() + drawn.Index(tile_.x, y, 0);
+    hits_.Resize(row - static_cast<size_t>(std::count(hit, hit + row, kNoHit)));
+    if (hits_.size == 0) continue;
+    hits_.size = 0;
+    for (size_t at = 0; at < row; ++at) {
+      if (hit[at] != kNoHit) AddSample(drawn, y, at);
+    }
+    passes_.Run({*setup_, setup_->exposure, &drawn, owner, y}, &hits_);
+    const size_t first = static_cast<size_t>(y - tile_.y) * row;
+    for (size_t i = 0; i < hits_.size; ++i) {
+      fragments_.push_back({static_cast<uint32_t>(first + hits_.place[i]), owner, hits_.depth[i],
+                            Rgb(hits_.color[0][i], hits_.color[1][i], hits_.color[2][i]),
+                            setup_->owners[owner].opacity});
+    }
+  }
 }
 
 // The plane's depth at a sample of pixel x of the tile.
@@ -60,6 +81,12 @@ Film::Span Film::DrawnPixels(const TileBuffer& drawn, int32_t y) const {
   return {first / samples, (end + samples - 1) / samples};
 }
 
+std::span<const Fragment> Film::FragmentsOfRow(int32_t y) const {
+  const auto row = static_cast<uint32_t>(tile_.width) * static_cast<uint32_t>(places_.size());
+  const uint32_t first = static_cast<uint32_t>(y - tile_.y) * row;
+  return FragmentsOf(fragments_, first, first + row);
+}
+
 // Pixels whose samples all have the same owner, which is no object.
 void Film::FillPlain(int32_t y, Span pixels, uint32_t owner, float* out) {
   const size_t samples = places_.size();
@@ -76,17 +103,21 @@ void Film::FillPlain(int32_t y, Span pixels, uint32_t owner, float* out) {
     for (size_t s = 1; s < samples; ++s) sum += color;
     return sum * share;
   };
+  const auto channels = static_cast<int32_t>(setup_->channels());
   for (int k = 0; k < 3; ++k) {
     const float* color = hits_.color[k].data();
     if (whole_row) {
       const float all = average(color[0]);
-      for (int32_t x = pixels.first; x < pixels.end; ++x) out[3 * x + k] = all;
+      for (int32_t x = pixels.first; x < pixels.end; ++x) out[channels * x + k] = all;
       continue;
     }
     for (int32_t x = pixels.first; x < pixels.end; ++x) {
-      out[3 * x + k] = average(color[x - pixels.first]);
+      out[channels * x + k] = average(color[x - pixels.first]);
     }
   }
+  if (channels < 4) return;
+  const float alpha = owner == setup_->sky_owner ? 0 : 1;
+  for (int32_t x = pixels.first; x < pixels.end; ++x) out[channels * x + 3] = alpha;
 }
 
 // The sea was laid under everything else before it was drawn: where no hit is, it shows.
@@ -127,22 +158,24 @@ void Film::AddPixel(int32_t x, int32_t y, uint32_t owner, size_t sample) {
       setup_->owners[owner].kind == OwnerKind::kSea ? SeaDepth(x, y, places_[sample]) : 1;
 }
 
+// A sample of a row as it is in the buffer.
+inline void Film::AddSample(const TileBuffer& drawn, int32_t y, size_t at) {
+  const size_t index = drawn.Index(tile_.x, y, 0) + at;
+  const size_t i = hits_.size++;
+  hits_.place[i] = static_cast<uint32_t>(at);
+  hits_.x[i] = drawn.sample_x()[at];
+  hits_.y[i] = static_cast<double>(y * kFixedOne) + drawn.sample_y()[at];
+  hits_.depth[i] = drawn.depth()[index];
+  hits_.record[i] = drawn.hit()[index];
+  __builtin_prefetch(&drawn.record(hits_.record[i]));  // read when the row is complete
+}
+
 void Film::CollectSamples(int32_t y, Span pixels, uint32_t owner, const TileBuffer& drawn) {
-  const size_t row = drawn.Index(tile_.x, y, 0);
-  const double top = static_cast<double>(y * kFixedOne);
   const size_t end = static_cast<size_t>(pixels.end) * places_.size();
-  size_t size = 0;
+  hits_.size = 0;
   for (size_t at = static_cast<size_t>(pixels.first) * places_.size(); at < end; ++at) {
-    if (owner_[at] != owner) continue;
-    hits_.place[size] = static_cast<uint32_t>(at);
-    hits_.x[size] = drawn.sample_x()[at];
-    hits_.y[size] = top + drawn.sample_y()[at];
-    hits_.depth[size] = drawn.depth()[row + at];
-    hits_.record[size] = drawn.hit()[row + at];
-    __builtin_prefetch(&drawn.record(hits_.record[size]));  // read when the row is complete
-    ++size;
+    if (owner_[at] == owner) AddSample(drawn, y, at);
   }
-  hits_.size = size;
 }
 
 // The hits of one owner of a row.
@@ -187,6 +220,20 @@ void Film::Scatter(Span pixels, uint32_t owner) {
   }
 }
 
+// Over the colours of the row's samples.
+void Film::LayFragments(int32_t y) {
+  const size_t row = static_cast<size_t>(tile_.width) * places_.size();
+  for (const Fragment& fragment : FragmentsOfRow(y)) {
+    const size_t at = fragment.sample % row;
+    for (int k = 0; k < 3; ++k) {
+      float& color = row_[k][at];
+      color = color + (fragment.color[k] - color) * fragment.opacity;
+    }
+    float& alpha = row_[3][at];
+    alpha = alpha + (1 - alpha) * fragment.opacity;
+  }
+}
+
 // Pixels of which each sample may see something else.
 void Film::FillSamples(int32_t y, Span pixels, const TileBuffer* drawn, float* out) {
   FindOwners(y, pixels, drawn);
@@ -196,13 +243,19 @@ void Film::FillSamples(int32_t y, Span pixels, const TileBuffer* drawn, float* o
     Scatter(pixels, owner);
   }
   const auto samples = static_cast<int32_t>(places_.size());
+  const auto channels = static_cast<int32_t>(setup_->channels());
+  for (int32_t at = pixels.first * samples; channels == 4 && at < pixels.end * samples; ++at) {
+    row_[3][static_cast<size_t>(at)] =
+        owner_[static_cast<size_t>(at)] == setup_->sky_owner ? 0.f : 1.f;
+  }
+  LayFragments(y);
   const float share = 1.f / static_cast<float>(samples);
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < channels; ++k) {
     const float* from = row_[k].data() + pixels.first * samples;
     for (int32_t x = pixels.first; x < pixels.end; ++x, from += samples) {
       float sum = from[0];
       for (int32_t s = 1; s < samples; ++s) sum += from[s];
-      out[3 * x + k] = sum * share;
+      out[channels * x + k] = sum * share;
     }
   }
 }
@@ -216,24 +269,32 @@ void Film::DevelopRow(int32_t y, const TileBuffer* drawn, float* out) {
     mixed = DrawnPixels(*drawn, y);
   }
   if (mixed.first >= mixed.end) mixed = {0, 0};
+  if (const auto laid = FragmentsOfRow(y); !laid.empty()) {
+    const auto samples = static_cast<uint32_t>(places_.size());
+    const uint32_t row = static_cast<uint32_t>(tile_.width) * samples;
+    const auto first = static_cast<int32_t>(laid.front().sample % row / samples);
+    const auto end = static_cast<int32_t>(laid.back().sample % row / samples) + 1;
+    const bool alone = mixed.first == mixed.end;
+    mixed = {alone ? first : std::min(mixed.first, first), std::max(mixed.end, end)};
+  }
   if (mixed.first > 0) FillPlain(y, {0, mixed.first}, *behind, out);
   if (mixed.first < mixed.end) FillSamples(y, mixed, drawn, out);
   if (mixed.end < tile_.width) FillPlain(y, {mixed.end, tile_.width}, *behind, out);
 }
 
-void Film::Develop(const FrameSetup& setup, const TileRect& tile, const TileBuffer& drawn,
-                   std::span<float> rgb) {
-  StartTile(setup, tile);
-  for (int32_t y = tile.y; y < tile.bottom(); ++y) {
+void Film::Develop(const TileBuffer& drawn, std::span<float> pixels) {
+  SortFragments(&fragments_);
+  const size_t row = static_cast<size_t>(tile_.width) * setup_->channels();
+  for (int32_t y = tile_.y; y < tile_.bottom(); ++y) {
     const bool any = y >= drawn.rect().y && y < drawn.rect().bottom();
-    DevelopRow(y, any ? &drawn : nullptr,
-               rgb.data() + static_cast<size_t>(y - tile.y) * static_cast<size_t>(tile.width) * 3);
+    DevelopRow(y, any ? &drawn : nullptr, pixels.data() + static_cast<size_t>(y - tile_.y) * row);
   }
 }
 
 size_t Film::Bytes() const {
   constexpr size_t kPerHit = 2 * 4 + 6 * 8 + 11 * 4;
-  return owner_.capacity() * (4 + 3 * 4) + hits_.x.capacity() * kPerHit + passes_.Bytes();
+  return owner_.capacity() * (4 + 4 * 4) + fragments_.capacity() * sizeof(Fragment) +
+         hits_.x.capacity() * kPerHit + passes_.Bytes();
 }
 
 }  // namespace fjord

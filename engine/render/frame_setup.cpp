@@ -92,7 +92,10 @@ FrameSetup::FrameSetup(const BuiltFrame& built)
       owner.attributes = attributes;
       setup.keep = Keep::kPlaces;
     }
-    setup.line_width = material.line_width;
+    setup.fill = FillPlane(view, object, place.transform);
+    setup.line_width = material.drawn_width();
+    owner.opacity = object.shape->curve ? material.opacity() : 1;
+    setup.translucent = owner.opacity < 1;
     double determinant = 0;
     const std::array<double, 9> cofactors = Cofactors(place.transform, &determinant);
     owner.surface.lit = !object.shape->curve;
@@ -112,11 +115,10 @@ FrameSetup::FrameSetup(const BuiltFrame& built)
       owner.geometry.height_offset = -glm::dot(row, moved);
     }
     if (!material.ramp.empty()) owner.geometry.height_offset -= material.ramp.front().height;
-    setup.fill = FillPlane(view, object, place.transform);
     objects.push_back(setup);
     owners.push_back(std::move(owner));
     CullObject culled{object.prepared.get(), setup.to};
-    if (object.shape->curve) culled.spread = StrokeSpread(material.line_width);
+    if (object.shape->curve) culled.spread = StrokeSpread(setup.line_width);
     if (setup.fill) {
       culled.open = OutlineFill::CountsFrom(*setup.fill);
       culled.before_near = view.orthographic;
@@ -139,7 +141,7 @@ FrameSetup::FrameSetup(const BuiltFrame& built)
   owners.push_back(water);
   Owner beyond;
   beyond.kind = OwnerKind::kSky;
-  beyond.grain = built.sky.kind == SkyKind::kPicture ? Grain::kRow : Grain::kPixel;
+  beyond.grain = built.alpha || built.sky.kind == SkyKind::kPicture ? Grain::kRow : Grain::kPixel;
   beyond.geometry = geometry;
   sky_owner = static_cast<uint32_t>(owners.size());
   owners.push_back(beyond);

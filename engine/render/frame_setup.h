@@ -23,6 +23,7 @@ struct ObjectSetup {
   Keep keep = Keep::kRecords;
   double line_width = 1;
   std::optional<ViewPlane> fill;  // closed curves that are filled
+  bool translucent = false;       // drawn after what is opaque, over it (fragments.h)
 };
 
 // How many samples one hit stands for: what is smooth needs no light of its own for each.
@@ -39,6 +40,7 @@ struct Owner {
   Surface surface;
   HitGeometry geometry;
   std::shared_ptr<const CoarseAttributes> attributes;  // null where none is read
+  float opacity = 1;                                   // of objects
 };
 
 struct FrameSetup {
@@ -54,6 +56,8 @@ struct FrameSetup {
   std::vector<ShadeLight> lights;
   std::vector<ShadowMap> shadows;  // by ShadeLight::shadow; empty until DrawShadows
   std::optional<ViewPlane> sea;
+
+  uint32_t channels() const { return frame.alpha ? 4 : 3; }
 };
 
 }  // namespace fjord

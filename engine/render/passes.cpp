@@ -34,7 +34,9 @@ void Passes::RunSurface(const PassInput& input, SurfaceHits* hits) {
   const Owner& owner = input.setup.owners[input.owner];
   switch (owner.kind) {
     case OwnerKind::kSky:
-      if (frame.sky.kind == SkyKind::kPicture) {
+      if (frame.alpha) {
+        FillColor(Rgb(0), hits);
+      } else if (frame.sky.kind == SkyKind::kPicture) {
         FillColor(SkyOfRow(frame.sky, input.row, frame.height), hits);
       } else {
         LocateHits(owner.geometry, hits);

@@ -61,7 +61,7 @@ std::vector<ObjectPlace> PlacesSeen(const BuiltFrame& frame, const View& view) {
     }
     const Ball bound = BoundOf(*object.prepared);
     CullObject cull;
-    if (object.shape->curve) cull.spread = StrokeSpread(object.material.line_width);
+    if (object.shape->curve) cull.spread = StrokeSpread(object.material.drawn_width());
     for (const Transform& placement : object.placements) {
       const Transform transform = Composed(placement, object.transform);
       cull.to = MakeProjection(view, transform);

@@ -68,7 +68,8 @@ std::vector<float> DrawNearness(const BuiltFrame& frame, std::span<const ObjectP
     const TileRect& rect = lists.busy[tile];
     if (rect.height == 0) return;
     TileDraw draw;
-    draw.Draw(list, lists, tile, options);
+    StreamStats made;
+    draw.Draw(list, lists, tile, options, &made);
     for (int32_t y = rect.y; y < rect.bottom(); ++y) {
       const double* from = draw.buffer().depth() + draw.buffer().Index(rect.x, y, 0);
       float* to = &nearness[static_cast<size_t>(y) * view.width + static_cast<size_t>(rect.x)];
@@ -88,7 +89,28 @@ Error TooLarge(size_t light, const View& view, double detail) {
                        " instead of " + std::to_string(detail) + " would fit");
 }
 
+// How the light sees all that throws shadows; none where nothing does.
+Result<std::optional<View>> LightViewOf(const BuiltFrame& frame,
+                                        std::span<const ObjectPlace> places, size_t light) {
+  View view = MakeLightView(Unit(frame.lights[light].place, Vec3(0, 0, 1)));
+  const LightBounds bounds = BoundsOf(frame, places, view);
+  if (bounds.left > bounds.right) return std::optional<View>();
+  const double detail = frame.lights[light].shadow;
+  if (!FitLightView(bounds, detail, &view)) return TooLarge(light, view, detail);
+  return std::optional<View>(view);
+}
+
 }  // namespace
+
+std::optional<ShadowDefect> FindShadowDefect(const BuiltFrame& frame) {
+  const std::vector<ObjectPlace> places = AllPlaces(frame);
+  for (size_t i = 0; i < frame.lights.size(); ++i) {
+    if (!(frame.lights[i].shadow > 0)) continue;
+    const auto view = LightViewOf(frame, places, i);
+    if (!view) return ShadowDefect{i, view.error()};
+  }
+  return std::nullopt;
+}
 
 Result<> DrawShadows(FrameSetup* setup, const RenderOptions& options) {
   const BuiltFrame& frame = setup->frame;
@@ -96,15 +118,11 @@ Result<> DrawShadows(FrameSetup* setup, const RenderOptions& options) {
   setup->shadows.reserve(frame.lights.size());
   for (size_t i = 0; i < frame.lights.size(); ++i) {
     if (!(frame.lights[i].shadow > 0)) continue;
-    ShadeLight& light = setup->lights[i];
-    View view = MakeLightView(light.place);
-    const LightBounds bounds = BoundsOf(frame, places, view);
-    if (bounds.left > bounds.right) continue;
-    if (!FitLightView(bounds, frame.lights[i].shadow, &view)) {
-      return TooLarge(i, view, frame.lights[i].shadow);
-    }
-    light.shadow = static_cast<int32_t>(setup->shadows.size());
-    setup->shadows.emplace_back(view, DrawNearness(frame, places, view, options));
+    const auto view = LightViewOf(frame, places, i);
+    if (!view) return view.error();
+    if (!*view) continue;
+    setup->lights[i].shadow = static_cast<int32_t>(setup->shadows.size());
+    setup->shadows.emplace_back(**view, DrawNearness(frame, places, **view, options));
     if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed)) {
       return MakeError(ErrorCode::kCancelled, "cancelled");
     }

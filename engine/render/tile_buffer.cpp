@@ -35,6 +35,18 @@ void TileBuffer::Reset(const TileRect& rect, uint32_t samples, const ViewPlane* 
   LimitRecords(0);
 }
 
+void TileBuffer::ResetBefore(const TileBuffer& solid) {
+  rect_ = solid.rect_;
+  places_ = solid.places_;
+  sample_x_ = solid.sample_x_;
+  sample_y_ = solid.sample_y_;
+  depth_ = solid.depth_;
+  hit_.assign(solid.hit_.size(), kNoHit);
+  records_.clear();
+  corners_.clear();
+  LimitRecords(0);
+}
+
 bool TileBuffer::Hides(int32_t left, int32_t top, int32_t right, int32_t bottom,
                        double depth) const {
   left = std::max(left, rect_.x);

@@ -55,6 +55,9 @@ class TileBuffer {
   // Empties it for another tile. sea: null, or what must be passed to be seen.
   void Reset(const TileRect& rect, uint32_t samples, const ViewPlane* sea);
 
+  // Empties it for what is seen before `solid`, whose samples keep their depth and have no hits.
+  void ResetBefore(const TileBuffer& solid);
+
   const TileRect& rect() const { return rect_; }
   std::span<const SamplePlace> places() const { return places_; }
   int32_t samples() const { return static_cast<int32_t>(places_.size()); }

@@ -61,32 +61,48 @@ class TileSink final : public StreamSink {
 
 }  // namespace
 
-StreamStats TileDraw::Draw(const DrawList& list, const TileLists& lists, size_t tile,
-                           const RenderOptions& options) {
-  const TileRect& rect = lists.busy[tile];
+std::span<const RootRef> RootsOfFirst(std::span<const RootRef> refs) {
+  size_t count = 0;
+  while (count < refs.size() && refs[count].object == refs[0].object) ++count;
+  return refs.first(count);
+}
+
+void TileDraw::DrawObject(const DrawList& list, std::span<const RootRef> roots,
+                          const RenderOptions& options, StreamStats* made) {
+  const uint32_t object = roots[0].object;
   const size_t patch = options.patch_size > 0 ? options.patch_size : kPatchSize;
-  buffer_.Reset(rect, list.samples, list.sea);
-  buffer_.AddRecord({});  // what Keep::kDepth refers to
-  StreamStats made;
-  uint32_t i = lists.start[tile];
-  const uint32_t end = lists.start[tile + 1];
-  while (i < end) {
-    const uint32_t object = lists.refs[i].object;
-    const ObjectSetup& setup = list.objects[object];
-    raster_.StartObject(object, setup.to, setup.keep, setup.line_width);
-    if (setup.fill) fill_.Start(buffer_, list.cull[object].open);
-    TileSink sink(list.cull[object], rect, options.cancel, &raster_, setup.fill ? &fill_ : nullptr);
-    for (; i < end && lists.refs[i].object == object; ++i) {
-      if (IsSet(options.cancel)) return made;
-      const StreamStats root = list.cull[object].prepared->Stream(lists.refs[i].root, sink, patch);
-      made.midpoints += root.midpoints;
-      made.triangles += root.triangles;
-      made.culled += root.culled;
-      made.depth = std::max(made.depth, root.depth);
-    }
-    if (setup.fill) fill_.Finish(*setup.fill, object, &buffer_);
+  const ObjectSetup& setup = list.objects[object];
+  const CullObject& cull = list.cull[object];
+  raster_.StartObject(object, setup.to, setup.keep, setup.line_width);
+  if (setup.fill) fill_.Start(buffer_, cull.open);
+  TileSink sink(cull, buffer_.rect(), options.cancel, &raster_, setup.fill ? &fill_ : nullptr);
+  for (const RootRef& root : roots) {
+    if (IsSet(options.cancel)) return;
+    const StreamStats streamed = cull.prepared->Stream(root.root, sink, patch);
+    made->midpoints += streamed.midpoints;
+    made->triangles += streamed.triangles;
+    made->culled += streamed.culled;
+    made->depth = std::max(made->depth, streamed.depth);
   }
-  return made;
+  if (setup.fill) fill_.Finish(*setup.fill, object, &buffer_);
+}
+
+void TileDraw::Draw(const DrawList& list, const TileLists& lists, size_t tile,
+                    const RenderOptions& options, StreamStats* made) {
+  buffer_.Reset(lists.busy[tile], list.samples, list.sea);
+  buffer_.AddRecord({});  // what Keep::kDepth refers to
+  for (std::span<const RootRef> refs = lists.Of(tile); !refs.empty();) {
+    const std::span<const RootRef> roots = RootsOfFirst(refs);
+    if (!list.objects[roots[0].object].translucent) DrawObject(list, roots, options, made);
+    refs = refs.subspan(roots.size());
+  }
+}
+
+void TileDraw::DrawBefore(const TileBuffer& solid, const DrawList& list,
+                          std::span<const RootRef> roots, const RenderOptions& options,
+                          StreamStats* made) {
+  buffer_.ResetBefore(solid);
+  DrawObject(list, roots, options, made);
 }
 
 }  // namespace fjord

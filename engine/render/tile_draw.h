@@ -24,18 +24,30 @@ struct DrawList {
   const ViewPlane* sea = nullptr;  // null: none
 };
 
+// The roots at the front of `refs` that are of one object.
+std::span<const RootRef> RootsOfFirst(std::span<const RootRef> refs);
+
 class TileDraw {
  public:
   TileDraw() : raster_(&buffer_) {}
 
-  // Rows lists.busy[tile]. Ends early once options.cancel is set.
-  StreamStats Draw(const DrawList& list, const TileLists& lists, size_t tile,
-                   const RenderOptions& options);
+  // What is opaque, in rows lists.busy[tile]. Ends early once options.cancel is set. Adds to
+  // `made`.
+  void Draw(const DrawList& list, const TileLists& lists, size_t tile, const RenderOptions& options,
+            StreamStats* made);
+
+  // One translucent object alone, of which `roots` may touch the tile: what of it lies before
+  // `solid`.
+  void DrawBefore(const TileBuffer& solid, const DrawList& list, std::span<const RootRef> roots,
+                  const RenderOptions& options, StreamStats* made);
 
   const TileBuffer& buffer() const { return buffer_; }
   size_t Bytes() const { return buffer_.Bytes() + raster_.Bytes() + fill_.Bytes(); }
 
  private:
+  void DrawObject(const DrawList& list, std::span<const RootRef> roots,
+                  const RenderOptions& options, StreamStats* made);
+
   TileBuffer buffer_;
   Raster raster_;
   OutlineFill fill_;

@@ -7,6 +7,7 @@
 
 #include "engine/base/fpenv.h"
 #include "engine/base/parallel.h"
+#include "engine/image/alpha.h"
 #include "engine/image/dither.h"
 #include "engine/render/depth_layer.h"
 #include "engine/render/film.h"
@@ -36,11 +37,13 @@ bool IsSet(const std::atomic<bool>* cancel) {
 // The buffers one thread needs.
 struct Worker {
   TileDraw draw;
+  TileDraw before;  // translucent objects, one by one
   Film film;
-  std::vector<float> rgb, distance;
+  std::vector<float> pixels, straight, distance;
 
   size_t Bytes() const {
-    return draw.Bytes() + film.Bytes() + (rgb.capacity() + distance.capacity()) * sizeof(float);
+    return draw.Bytes() + before.Bytes() + film.Bytes() +
+           (pixels.capacity() + straight.capacity() + distance.capacity()) * sizeof(float);
   }
 };
 
@@ -83,7 +86,8 @@ class RegionRenderer {
     picture_.width = static_cast<uint32_t>(region.width);
     picture_.height = static_cast<uint32_t>(region.height);
     picture_.format = frame.format;
-    pixel_bytes_ = 3 * BytesPerSample(frame.format);
+    picture_.alpha = frame.alpha;
+    pixel_bytes_ = picture_.channels() * BytesPerSample(frame.format);
     const size_t pixels = size_t{picture_.width} * picture_.height;
     picture_.bytes.resize(pixels * pixel_bytes_);
     if (frame.depth_layer) picture_.layers.push_back({"depth", std::vector<float>(pixels)});
@@ -106,17 +110,31 @@ class RegionRenderer {
     if (IsSet(options_.cancel)) return;
     std::unique_ptr<Worker> worker = WorkerPool::Get().Borrow();
     const TileRect& rect = lists_.tiles[tile];
-    const StreamStats made = worker->draw.Draw(List(), lists_, tile, options_);
+    StreamStats made;
+    worker->draw.Draw(List(), lists_, tile, options_, &made);
+    worker->film.Start(setup_, rect);
+    DrawTranslucent(tile, worker.get(), &made);
     const size_t pixels = static_cast<size_t>(rect.width) * static_cast<size_t>(rect.height);
-    worker->rgb.resize(pixels * 3);
-    worker->film.Develop(setup_, rect, worker->draw.buffer(), worker->rgb);
-    Store(rect, worker->rgb);
+    worker->pixels.resize(pixels * picture_.channels());
+    worker->film.Develop(worker->draw.buffer(), worker->pixels);
+    Store(rect, worker.get());
     if (setup_.frame.depth_layer) {
       worker->distance.resize(pixels);
-      MeasureDepth(setup_, rect, worker->draw.buffer(), worker->distance);
+      MeasureDepth(setup_, rect, worker->draw.buffer(), worker->film.fragments(), worker->distance);
       StoreDepth(rect, worker->distance);
     }
     Return(std::move(worker), made);
+  }
+
+  void DrawTranslucent(size_t tile, Worker* worker, StreamStats* made) const {
+    for (std::span<const RootRef> refs = lists_.Of(tile); !refs.empty();) {
+      const std::span<const RootRef> roots = RootsOfFirst(refs);
+      refs = refs.subspan(roots.size());
+      const uint32_t object = roots[0].object;
+      if (!setup_.objects[object].translucent) continue;
+      worker->before.DrawBefore(worker->draw.buffer(), List(), roots, options_, made);
+      worker->film.AddFragments(object, worker->before.buffer());
+    }
   }
 
   DrawList List() const {
@@ -124,22 +142,35 @@ class RegionRenderer {
   }
 
   // Quantised here, so that no picture of floats is ever held whole.
-  void Store(const TileRect& rect, std::span<const float> rgb) {
+  void Store(const TileRect& rect, Worker* worker) {
     const size_t row = static_cast<size_t>(rect.width) * pixel_bytes_;
-    const size_t samples = static_cast<size_t>(rect.width) * 3;
+    const size_t samples = static_cast<size_t>(rect.width) * picture_.channels();
     for (int32_t y = 0; y < rect.height; ++y) {
       const size_t at = (static_cast<size_t>(rect.y - region_.y + y) * picture_.width +
                          static_cast<size_t>(rect.x - region_.x)) *
                         pixel_bytes_;
-      const std::span<const float> from = rgb.subspan(static_cast<size_t>(y) * samples, samples);
+      const std::span<const float> from =
+          std::span(worker->pixels).subspan(static_cast<size_t>(y) * samples, samples);
+      const std::span<uint8_t> to = std::span(picture_.bytes).subspan(at, row);
       if (setup_.frame.dither) {
-        EncodeDithered8(static_cast<uint32_t>(rect.x), static_cast<uint32_t>(rect.y + y), from,
-                        std::span(picture_.bytes).subspan(at, row));
+        Dither(rect.x, rect.y + y, from, &worker->straight, to);
         continue;
       }
-      const Picture part = Quantise(static_cast<uint32_t>(rect.width), 1, picture_.format, from);
-      std::memcpy(&picture_.bytes[at], part.bytes.data(), row);
+      const Picture part = Quantise(static_cast<uint32_t>(rect.width), 1, picture_.format, from,
+                                    picture_.alpha ? Channels::kRgba : Channels::kRgb);
+      std::memcpy(to.data(), part.bytes.data(), row);
     }
+  }
+
+  void Dither(int32_t x, int32_t y, std::span<const float> from, std::vector<float>* straight,
+              std::span<uint8_t> to) const {
+    if (picture_.alpha) {
+      ToStraight(from, straight);
+      from = *straight;
+      EncodeAlpha8(from, to);
+    }
+    EncodeDithered8(static_cast<uint32_t>(x), static_cast<uint32_t>(y), from, to,
+                    picture_.channels());
   }
 
   void StoreDepth(const TileRect& rect, std::span<const float> distance) {

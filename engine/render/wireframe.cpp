@@ -2,175 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstring>
 #include <utility>
 #include <vector>
 
 #include "engine/base/clamp.h"
-#include "engine/render/build.h"
-#include "engine/render/clip.h"
-#include "engine/render/places.h"
-#include "engine/render/view.h"
+#include "engine/render/wireframe_edges.h"
 
 namespace fjord {
 namespace {
-
-constexpr double kCoarsest = 1e12;
-
-using Edge = std::array<uint32_t, 2>;
-
-std::vector<Edge> EdgesOf(const WeldedShape& shape) {
-  std::vector<Edge> edges;
-  const auto add = [&](uint32_t a, uint32_t b) {
-    edges.push_back(a < b ? Edge{a, b} : Edge{b, a});
-  };
-  if (shape.curve) {
-    const auto count = static_cast<uint32_t>(shape.mesh.points.size());
-    for (uint32_t i = 1; i < count; ++i) add(i - 1, i);
-    if (shape.closed && count > 2) add(count - 1, 0);
-    return edges;
-  }
-  size_t at = 0;
-  for (const uint32_t size : shape.mesh.face_size) {
-    for (uint32_t i = 0; i < size; ++i) {
-      add(shape.mesh.face_vertex[at + i], shape.mesh.face_vertex[at + (i + 1) % size]);
-    }
-    at += size;
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
-}
-
-struct ObjectEdges {
-  WeldedShape shape;
-  std::vector<Edge> edges;
-};
-
-struct FrameEdges {
-  std::vector<ObjectEdges> objects;
-  uint64_t count = 0;
-  bool fits = true;
-};
-
-uint64_t TimesDrawn(const BuiltObject& object) {
-  return std::max<uint64_t>(1, object.placements.size());
-}
-
-Result<FrameEdges> WeldFrame(const BuiltFrame& frame, double coarser, size_t cap) {
-  FrameEdges all;
-  for (const BuiltObject& object : frame.objects) {
-    Result<std::shared_ptr<const PreparedFractal>> prepared = object.prepared;
-    if (coarser != 1) prepared = PrepareObject(object, coarser);
-    if (!prepared) return prepared.error();
-    WeldLimits limits;
-    limits.max_points = std::max<uint64_t>(cap, object.shape->now.size());
-    Result<WeldedShape> shape = (*prepared)->Weld(limits);
-    if (!shape && shape.error().code != ErrorCode::kLimit) return shape.error();
-    if (!shape) {
-      all.fits = false;
-      return all;
-    }
-    ObjectEdges edges{std::move(*shape), {}};
-    edges.edges = EdgesOf(edges.shape);
-    all.count += edges.edges.size() * TimesDrawn(object);
-    all.objects.push_back(std::move(edges));
-    if (all.count > cap) all.fits = false;
-  }
-  return all;
-}
-
-// The finest that fits. Where coarse shapes alone are too many, every so-many-th edge is left.
-Result<FrameEdges> EdgesUnder(const BuiltFrame& frame, size_t cap, double* coarser) {
-  uint64_t last = 0;
-  for (*coarser = 1;; *coarser *= 2) {
-    Result<FrameEdges> all = WeldFrame(frame, *coarser, cap);
-    if (!all || all->fits) return all;
-    const bool complete = all->objects.size() == frame.objects.size();
-    if (complete && (all->count == last || *coarser > kCoarsest)) {
-      const uint64_t stride = (all->count + cap - 1) / cap;
-      all->count = 0;
-      for (size_t o = 0; o < all->objects.size(); ++o) {
-        ObjectEdges& object = all->objects[o];
-        size_t kept = 0;
-        for (size_t i = 0; i < object.edges.size(); i += stride) {
-          object.edges[kept++] = object.edges[i];
-        }
-        object.edges.resize(kept);
-        all->count += kept * TimesDrawn(frame.objects[o]);
-      }
-      return all;
-    }
-    if (*coarser > 4 * kCoarsest) {
-      return MakeError(ErrorCode::kLimit,
-                       "the coarse shapes alone have too many points to preview");
-    }
-    last = complete ? all->count : 0;
-  }
-}
-
-struct Segment {
-  double x0, y0, x1, y1;  // pixels, cut to the picture and a little more
-};
-
-// Liang-Barsky against -1 .. size + 1.
-bool CutToPicture(const BuiltFrame& frame, Segment* s) {
-  const double dx = s->x1 - s->x0, dy = s->y1 - s->y0;
-  double from = 0, to = 1;
-  const auto side = [&](double p, double q) {  // p t <= q
-    if (p == 0) return q >= 0;
-    const double t = q / p;
-    if (p < 0) {
-      from = std::max(from, t);
-    } else {
-      to = std::min(to, t);
-    }
-    return from <= to;
-  };
-  if (!side(-dx, s->x0 + 1) || !side(dx, frame.width + 1 - s->x0) || !side(-dy, s->y0 + 1) ||
-      !side(dy, frame.height + 1 - s->y0)) {
-    return false;
-  }
-  *s = {s->x0 + dx * from, s->y0 + dy * from, s->x0 + dx * to, s->y0 + dy * to};
-  return true;
-}
-
-// Of each object, at each of its places.
-std::vector<std::pair<size_t, Projection>> ProjectionsOf(const BuiltFrame& frame,
-                                                         const View& view) {
-  std::vector<std::pair<size_t, Projection>> projections;
-  for (const ObjectPlace& place : PlacesSeen(frame, view)) {
-    projections.emplace_back(place.object, MakeProjection(view, place.transform));
-  }
-  return projections;
-}
-
-// All edges on the picture, in order. `draw(segment)`.
-template <typename Draw>
-void ProjectEdges(const BuiltFrame& frame, const FrameEdges& all, const Draw& draw) {
-  const View view = MakeView(frame.camera, frame.width, frame.height);
-  for (const auto& [o, to] : ProjectionsOf(frame, view)) {
-    for (const Edge& edge : all.objects[o].edges) {
-      ClipPolygon line;
-      line.size = 2;
-      for (int i = 0; i < 2; ++i) {
-        line.corner[i].clip = ToClip(to, all.objects[o].shape.mesh.points[edge[i]]);
-      }
-      ClipToView(to, &line);
-      if (line.size != 2) continue;
-      double x[2], y[2];
-      for (int i = 0; i < 2; ++i) {
-        const ClipPoint& p = line.corner[i].clip;
-        const double scale = (to.orthographic ? 1 : 1 / p.z) / kFixedOne;
-        x[i] = p.x * scale;
-        y[i] = p.y * scale;
-      }
-      Segment segment{x[0], y[0], x[1], y[1]};
-      if (CutToPicture(frame, &segment)) draw(segment);
-    }
-  }
-}
 
 // One-pixel lines with two pixels of coverage a step; a pixel keeps the most it got.
 class Plotter {
@@ -178,7 +17,7 @@ class Plotter {
   Plotter(uint32_t width, uint32_t height)
       : width_(width), height_(height), ink_(size_t{width} * height, 0) {}
 
-  void Line(const Segment& s) {
+  void Line(const ScreenEdge& s) {
     const double dx = s.x1 - s.x0, dy = s.y1 - s.y0;
     const bool steep = (dx < 0 ? -dx : dx) < (dy < 0 ? -dy : dy);
     // along the longer axis u, from pixel centre to pixel centre; v in 1/65536 pixel
@@ -242,35 +81,35 @@ std::string Hundredths(double v) {
   return text;
 }
 
+WireframeStats StatsOf(const FrameEdges& edges) {
+  return {edges.edges.size(), edges.coarser, edges.longest_only, edges.made};
+}
+
 }  // namespace
 
 Result<WireframePicture> RenderWireframe(const BuiltFrame& frame, size_t cap) {
-  WireframeStats stats;
-  const Result<FrameEdges> all = EdgesUnder(frame, std::max<size_t>(cap, 1), &stats.coarser);
-  if (!all) return all.error();
-  stats.edges = all->count;
+  const Result<FrameEdges> edges = EdgesInView(frame, std::max<size_t>(cap, 1));
+  if (!edges) return edges.error();
   Plotter plotter(frame.width, frame.height);
-  ProjectEdges(frame, *all, [&](const Segment& s) { plotter.Line(s); });
-  return WireframePicture{plotter.Finish(), stats};
+  for (const ScreenEdge& edge : edges->edges) plotter.Line(edge);
+  return WireframePicture{plotter.Finish(), StatsOf(*edges)};
 }
 
 Result<WireframeDrawing> WireframeSvg(const BuiltFrame& frame, size_t cap) {
-  WireframeStats stats;
-  const Result<FrameEdges> all = EdgesUnder(frame, std::max<size_t>(cap, 1), &stats.coarser);
-  if (!all) return all.error();
-  stats.edges = all->count;
+  const Result<FrameEdges> edges = EdgesInView(frame, std::max<size_t>(cap, 1));
+  if (!edges) return edges.error();
   const std::string size = std::to_string(frame.width) + ' ' + std::to_string(frame.height);
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size +
                     "\" width=\"" + std::to_string(frame.width) + "\" height=\"" +
                     std::to_string(frame.height) +
                     "\">\n<rect width=\"100%\" height=\"100%\" fill=\"#0d121b\"/>\n"
                     "<path fill=\"none\" stroke=\"#c4deff\" stroke-width=\".7\" d=\"";
-  ProjectEdges(frame, *all, [&](const Segment& s) {
+  for (const ScreenEdge& s : edges->edges) {
     svg += 'M' + Hundredths(s.x0) + ' ' + Hundredths(s.y0) + 'L' + Hundredths(s.x1) + ' ' +
            Hundredths(s.y1) + '\n';
-  });
+  }
   svg += "\"/>\n</svg>\n";
-  return WireframeDrawing{std::move(svg), stats};
+  return WireframeDrawing{std::move(svg), StatsOf(*edges)};
 }
 
 }  // namespace fjord

@@ -1,6 +1,7 @@
-// A fast look (S26): the welded edges of every object, projected; hidden lines are not removed.
+// A fast look (S26): the edges in view of every object, each once; hidden lines are not removed.
 // Where there would be more edges than `cap`, the fineness is made coarser, twofold at a time,
-// until they fit; the answer says so. Thread-safe.
+// until they fit, or, where coarse shapes alone are too many, the longest are drawn; the answer
+// says so (wireframe_edges.h). Thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +18,10 @@ namespace fjord {
 inline constexpr size_t kWireframeCap = 200'000;
 
 struct WireframeStats {
-  uint64_t edges = 0;  // drawn
-  double coarser = 1;  // 1: the fineness of the picture; 4: edges four times as long
+  uint64_t edges = 0;         // drawn
+  double coarser = 1;         // 1: the fineness of the picture; 4: edges four times as long
+  bool longest_only = false;  // coarse shapes have more, of which the longest are drawn
+  uint64_t made = 0;          // triangles and segments, to find and draw them
 };
 
 struct WireframePicture {

@@ -51,7 +51,8 @@ Result<HeightField> FromPicture(const v1::Heights& heights, const std::string& b
   for (uint32_t y = 0; y < picture->height; ++y) {
     const uint32_t row = picture->height - 1 - y;
     for (uint32_t x = 0; x < picture->width; ++x) {
-      const float sample = SampleOf(*picture, 3 * (size_t{y} * picture->width + x));
+      const float sample =
+          SampleOf(*picture, picture->channels() * (size_t{y} * picture->width + x));
       if (!(sample >= -kMost && sample <= kMost)) return BadSample(x, y, sample);
       samples[size_t{row} * picture->width + x] = sample;
     }

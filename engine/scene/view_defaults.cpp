@@ -6,6 +6,7 @@
 #include "engine/base/clamp.h"
 #include "engine/base/exact_math.h"
 #include "engine/scene/defaults.h"
+#include "engine/scene/fractal_reach.h"
 #include "engine/scene/track.h"
 #include "engine/scene/transform.h"
 
@@ -65,17 +66,22 @@ Box TrackedBox(const v1::Scene& scene, int object, const TrackSet& tracks, Box b
   return box;
 }
 
+std::array<Vec3, 8> CornersOf(const Box& box) {
+  std::array<Vec3, 8> corners;
+  for (size_t i = 0; i < 8; ++i) {
+    corners[i] = {(i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,
+                  (i & 4) != 0 ? box.high.z : box.low.z};
+  }
+  return corners;
+}
+
 // Round the box at every placement.
 Box PlacedBox(const v1::Object& object, const Box& box) {
   if (object.placements_size() == 0) return box;
   Box placed;
   for (const v1::Transform& placement : object.placements()) {
     const ObjectTransform transform(placement);
-    for (int corner = 0; corner < 8; ++corner) {
-      placed.Add(transform.ToWorld({(corner & 1) != 0 ? box.high.x : box.low.x,
-                                    (corner & 2) != 0 ? box.high.y : box.low.y,
-                                    (corner & 4) != 0 ? box.high.z : box.low.z}));
-    }
+    for (const Vec3& corner : CornersOf(box)) placed.Add(transform.ToWorld(corner));
   }
   return placed;
 }
@@ -93,8 +99,27 @@ v1::Scene WithoutShapes(const v1::Scene& scene) {
   return light;
 }
 
-Box WorldBox(const v1::Scene& scene, const SceneShapes& shapes, const TrackSet& tracks) {
-  Box world;
+// Round the coarse shapes, or round what fractals make of them.
+enum class Boxed : uint8_t { kCoarse, kFractal };
+
+// Everything in the world: a box round it, and the corners of the objects' own boxes, which fit
+// closer where an object is turned.
+struct World {
+  Box box;
+  std::vector<Vec3> corners;
+
+  void Add(const Vec3& corner) {
+    box.Add(corner);
+    corners.push_back(corner);
+  }
+  void Add(const Box& part) {
+    for (const Vec3& corner : CornersOf(part)) Add(corner);
+  }
+};
+
+World WorldOf(const v1::Scene& scene, const SceneShapes& shapes, const TrackSet& tracks,
+              Boxed boxed) {
+  World world;
   v1::Scene now = WithoutShapes(scene);
   const std::vector<TrackSet> own = tracks.OfObjects(scene.objects_size());
   for (int i = 0; i < scene.objects_size(); ++i) {
@@ -104,20 +129,26 @@ Box WorldBox(const v1::Scene& scene, const SceneShapes& shapes, const TrackSet& 
     const TrackSet shape_tracks = of_object.Inside({route.Then("shape")});
     if (!shape_tracks.empty()) box = TrackedBox(scene, i, shape_tracks, box);
     if (box.empty) continue;
+    if (boxed == Boxed::kFractal) box = ReachOfFractal(scene, i, shapes, of_object).Around(box);
     box = PlacedBox(scene.objects(i), box);
     const TrackSet moves = of_object.Inside({route.Then("transform")});
+    if (moves.empty()) {
+      const ObjectTransform transform(now.objects(i).transform());
+      for (const Vec3& corner : CornersOf(box)) world.Add(transform.ToWorld(corner));
+      continue;
+    }
+    Box moved;
     for (const double frame : SampledFrames(moves, scene.output().frames())) {
       moves.Apply(frame, &now);
       const ObjectTransform transform(now.objects(i).transform());
-      for (int corner = 0; corner < 8; ++corner) {
-        world.Add(transform.ToWorld({(corner & 1) != 0 ? box.high.x : box.low.x,
-                                     (corner & 2) != 0 ? box.high.y : box.low.y,
-                                     (corner & 4) != 0 ? box.high.z : box.low.z}));
-      }
+      for (const Vec3& corner : CornersOf(box)) moved.Add(transform.ToWorld(corner));
     }
+    world.Add(moved);
   }
-  if (scene.has_sea() && !world.empty) {
-    world.Add({world.low.x, world.low.y, scene.sea().level()});
+  if (scene.has_sea() && !world.box.empty) {
+    Box at_sea = world.box;
+    at_sea.Add({at_sea.low.x, at_sea.low.y, scene.sea().level()});
+    if (at_sea.low.z < world.box.low.z || at_sea.high.z > world.box.high.z) world.Add(at_sea);
   }
   return world;
 }
@@ -150,14 +181,11 @@ struct Extent {
   double distance = 0;
 };
 
-Extent ExtentOf(const Box& box, const Vec3& center, const Frame& frame, double slope,
+Extent ExtentOf(const World& world, const Vec3& center, const Frame& frame, double slope,
                 double aspect) {
   Extent extent;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 point =
-        Vec3((corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
-             (corner & 4) != 0 ? box.high.z : box.low.z) -
-        center;
+  for (const Vec3& corner : world.corners) {
+    const Vec3 point = corner - center;
     const double x = glm::dot(point, frame.right), y = glm::dot(point, frame.up);
     const double width = (x < 0 ? -x : x) * kMargin, height = (y < 0 ? -y : y) * kMargin;
     extent.half_width = std::max(extent.half_width, width);
@@ -190,12 +218,17 @@ void FillVector(v1::Vec3* v) {
 
 void FillViewDefaults(v1::Scene* scene, const SceneShapes& shapes) {
   const TrackSet tracks(*scene);
-  const Box box = WorldBox(*scene, shapes, tracks);
+  const World coarse = WorldOf(*scene, shapes, tracks, Boxed::kCoarse);
+  const Box& box = coarse.box;
   const double aspect = static_cast<double>(scene->output().width()) / scene->output().height();
   v1::Camera* camera = scene->mutable_camera();
   if (!camera->has_fov()) camera->set_fov(kDefaultFov);
 
-  if (!camera->has_look_at()) Put(camera->mutable_look_at(), box.Center());
+  const bool free_height =
+      camera->projection() == v1::Camera::ORTHOGRAPHIC && !camera->has_view_height();
+  const World seen =
+      !camera->has_eye() || free_height ? WorldOf(*scene, shapes, tracks, Boxed::kFractal) : coarse;
+  if (!camera->has_look_at()) Put(camera->mutable_look_at(), seen.box.Center());
   FillVector(camera->mutable_look_at());
   const Vec3 look_at = ToVec3(camera->look_at());
   if (camera->has_eye()) FillVector(camera->mutable_eye());
@@ -209,7 +242,7 @@ void FillViewDefaults(v1::Scene* scene, const SceneShapes& shapes) {
 
   const double half = camera->fov() * (exact::kPi / 360);
   const double slope = exact::Sin(half) / exact::Cos(half);
-  const Extent extent = ExtentOf(box, look_at, FrameOf(side, ToVec3(camera->up())), slope, aspect);
+  const Extent extent = ExtentOf(seen, look_at, FrameOf(side, ToVec3(camera->up())), slope, aspect);
   if (!camera->has_eye()) {
     const double distance = extent.distance > 0 ? extent.distance : 1;
     Put(camera->mutable_eye(), look_at + side * distance);

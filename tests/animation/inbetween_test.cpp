@@ -412,5 +412,32 @@ TEST(InbetweenTest, TimeAndUvReachAFrameOnlyWhereAStageReadsThem) {
   EXPECT_EQ(FrameOf(*drifting, 9).instant(), 9);
 }
 
+// Only strokes below a pixel carry the version of how they fade, so all other keys stay.
+TEST(InbetweenTest, ThinStrokesFadeAndOthersKeepTheirKeys) {
+  const std::string line =
+      "shape { polyline { point {} point { x: 1 } point { y: 1 } closed: true } }";
+  const auto fading = [&](const std::string& object, uint32_t height) {
+    const auto animation =
+        Animate("output { height: " + std::to_string(height) + " } objects { " + object + " }");
+    return FrameOf(*animation, 1).object(0).material().fading();
+  };
+  EXPECT_EQ(fading(line, 1080), 0u);
+  EXPECT_EQ(fading(line, 540), 0u) << "a whole pixel";
+  EXPECT_EQ(fading(line, 539), kFadingVersion);
+  EXPECT_EQ(fading(line + " material { line_width: 1 }", 1080), 0u);
+  EXPECT_EQ(fading(line + " material { line_width: 0.9 }", 1080), kFadingVersion);
+  EXPECT_EQ(fading(line + " material { fill: true }", 100), 0u) << "what is filled is seen";
+  EXPECT_EQ(fading("shape { primitive { kind: SPHERE } }", 100), 0u) << "no strokes";
+}
+
+TEST(InbetweenTest, AlphaIsInTheKeyOnlyWhereItIsAskedFor) {
+  const std::string object = "objects { shape { primitive { kind: SPHERE } } }";
+  const auto key = [&](const std::string& output) {
+    return KeyOf(*Animate("output { " + output + " } " + object), 1);
+  };
+  EXPECT_EQ(key("alpha: false"), key(""));
+  EXPECT_NE(key("alpha: true"), key(""));
+}
+
 }  // namespace
 }  // namespace fjord

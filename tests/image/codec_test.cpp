@@ -49,6 +49,34 @@ TEST(CodecTest, WhatIsWrittenIsRead) {
   }
 }
 
+// Straight and associated samples come back as they are; no library multiplies them.
+TEST(CodecTest, AlphaIsWrittenAndReadAsItIs) {
+  for (const PixelFormat format : kFormats) {
+    std::vector<float> linear;
+    for (uint32_t i = 0; i < 37 * 23; ++i) {
+      const auto part = [&](uint32_t k) {
+        return static_cast<float>(Mix64(4 * i + k) >> 40) * 0x1p-24f;
+      };
+      const float alpha = i % 5 == 0 ? 0.f : i % 5 == 1 ? 1.f : part(3);
+      for (uint32_t k = 0; k < 3; ++k) linear.push_back(part(k) * alpha);
+      linear.push_back(alpha);
+    }
+    Picture picture = Quantise(37, 23, format, linear, Channels::kRgba);
+    ASSERT_EQ(picture.bytes.size(), 37u * 23 * 4 * BytesPerSample(format));
+    const bool exr = FileEnding(format) == std::string_view("exr");
+    if (exr) picture.layers.push_back({"depth", std::vector<float>(37 * 23, 2.5f)});
+    const Result<std::string> bytes = EncodePicture(picture, {});
+    ASSERT_TRUE(bytes.ok()) << bytes.error().message;
+    if (!exr) EXPECT_EQ((*bytes)[25], 6) << "colour type of truecolour with alpha";
+    const Result<Picture> back = DecodePicture(*bytes, "test");
+    ASSERT_TRUE(back.ok()) << back.error().message;
+    EXPECT_TRUE(back->alpha);
+    EXPECT_EQ(back->bytes, picture.bytes);
+    EXPECT_EQ(back->layers.size(), picture.layers.size());
+    EXPECT_EQ(PixelDigest(*back), PixelDigest(picture));
+  }
+}
+
 TEST(CodecTest, LayersAreWrittenBesideTheColoursAndTheirDigestsJoined) {
   for (const PixelFormat format : {PixelFormat::kExrHalf, PixelFormat::kExrFloat}) {
     Picture picture = Noise(37, 23, format);

@@ -1,0 +1,225 @@
+#include "engine/render/wireframe_edges.h"
+
+#include <algorithm>
+#include <memory>
+#include <tuple>
+#include <utility>
+
+#include "engine/render/build.h"
+#include "engine/render/clip.h"
+#include "engine/render/cull.h"
+#include "engine/render/places.h"
+#include "engine/render/view.h"
+
+namespace fjord {
+namespace {
+
+constexpr double kCoarsest = 1e12;
+// Edges come twice or more, once with each face; so many times what may stay are held at once.
+constexpr size_t kHeld = 4;
+
+bool IsBefore(const ScreenEdge& a, const ScreenEdge& b) {
+  return std::tie(a.place, a.from, a.to) < std::tie(b.place, b.from, b.to);
+}
+
+bool IsSame(const ScreenEdge& a, const ScreenEdge& b) {
+  return a.place == b.place && a.from == b.from && a.to == b.to;
+}
+
+double SquaredLength(const ScreenEdge& edge) {
+  const double x = edge.x1 - edge.x0, y = edge.y1 - edge.y0;
+  return x * x + y * y;
+}
+
+// Liang-Barsky against -1 .. size + 1.
+bool CutToPicture(const BuiltFrame& frame, ScreenEdge* s) {
+  const double dx = s->x1 - s->x0, dy = s->y1 - s->y0;
+  double from = 0, to = 1;
+  const auto side = [&](double p, double q) {  // p t <= q
+    if (p == 0) return q >= 0;
+    const double t = q / p;
+    if (p < 0) {
+      from = std::max(from, t);
+    } else {
+      to = std::min(to, t);
+    }
+    return from <= to;
+  };
+  if (!side(-dx, s->x0 + 1) || !side(dx, frame.width + 1 - s->x0) || !side(-dy, s->y0 + 1) ||
+      !side(dy, frame.height + 1 - s->y0)) {
+    return false;
+  }
+  const double x0 = s->x0, y0 = s->y0;
+  s->x0 = x0 + dx * from;
+  s->y0 = y0 + dy * from;
+  s->x1 = x0 + dx * to;
+  s->y1 = y0 + dy * to;
+  return true;
+}
+
+// One end of an edge on its way to the picture.
+struct End {
+  uint64_t id = 0;
+  Vec3 position{0};
+};
+
+class EdgeCollector {
+ public:
+  // longest_only: more than `most` are no reason to stop.
+  EdgeCollector(const BuiltFrame& frame, size_t most, bool longest_only)
+      : frame_(frame), most_(most), longest_only_(longest_only) {}
+
+  void StartPlace(uint32_t place, const Projection& to) {
+    place_ = place;
+    to_ = to;
+  }
+
+  void Add(End a, End b) {
+    if (full_) return;
+    if (b.id < a.id) std::swap(a, b);
+    ClipPolygon line;
+    line.size = 2;
+    line.corner[0].clip = ToClip(to_, a.position);
+    line.corner[1].clip = ToClip(to_, b.position);
+    ClipToView(to_, &line);
+    if (line.size != 2) return;
+    double x[2], y[2];
+    for (int i = 0; i < 2; ++i) {
+      const ClipPoint& p = line.corner[i].clip;
+      const double scale = (to_.orthographic ? 1 : 1 / p.z) / kFixedOne;
+      x[i] = p.x * scale;
+      y[i] = p.y * scale;
+    }
+    ScreenEdge edge{x[0], y[0], x[1], y[1], place_, a.id, b.id};
+    if (CutToPicture(frame_, &edge)) edges_.push_back(edge);
+    if (edges_.size() > kHeld * most_) {
+      Settle();
+      if (longest_only_) KeepLongest();
+    }
+  }
+
+  // Are there too many already?
+  bool Full() const { return full_; }
+
+  // Each once, in order.
+  std::vector<ScreenEdge> Take() {
+    Settle();
+    if (longest_only_) KeepLongest();
+    return std::move(edges_);
+  }
+  bool left_any() const { return left_any_; }
+
+ private:
+  void Settle() {
+    std::sort(edges_.begin(), edges_.end(), IsBefore);
+    edges_.erase(std::unique(edges_.begin(), edges_.end(), IsSame), edges_.end());
+    full_ = !longest_only_ && edges_.size() > most_;
+  }
+
+  void KeepLongest() {
+    if (edges_.size() <= most_) return;
+    left_any_ = true;
+    const auto end = edges_.begin() + static_cast<std::ptrdiff_t>(most_);
+    std::nth_element(edges_.begin(), end, edges_.end(),
+                     [](const ScreenEdge& a, const ScreenEdge& b) {
+                       const double of_a = SquaredLength(a), of_b = SquaredLength(b);
+                       return of_a != of_b ? of_a > of_b : IsBefore(a, b);
+                     });
+    edges_.erase(end, edges_.end());
+    std::sort(edges_.begin(), edges_.end(), IsBefore);
+  }
+
+  const BuiltFrame& frame_;
+  const size_t most_;
+  const bool longest_only_;
+  uint32_t place_ = 0;
+  Projection to_;
+  std::vector<ScreenEdge> edges_;
+  bool full_ = false;
+  bool left_any_ = false;
+};
+
+// Takes what may touch the picture of what a fractal streams.
+class EdgeSink final : public StreamSink {
+ public:
+  EdgeSink(const TileFrustum& frustum, EdgeCollector* edges) : frustum_(frustum), edges_(edges) {}
+
+  bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) override {
+    return !edges_->Full() && frustum_.MayTouch(a, b, c, reach);
+  }
+  void Take(const StreamBatch& batch) override {
+    const auto end = [&](uint32_t vertex) {
+      return End{batch.vertices[vertex].id, batch.vertices[vertex].position};
+    };
+    for (const Triangle& t : batch.triangles) {
+      for (size_t k = 0; k < 3; ++k) edges_->Add(end(t[k]), end(t[(k + 1) % 3]));
+    }
+    for (const auto& segment : batch.segments) edges_->Add(end(segment[0]), end(segment[1]));
+  }
+
+ private:
+  const TileFrustum& frustum_;
+  EdgeCollector* edges_;
+};
+
+// All edges at one fineness; fewer where the collector is full.
+Result<uint64_t> Collect(const BuiltFrame& frame, double coarser, EdgeCollector* edges) {
+  const View view = MakeView(frame.camera, frame.width, frame.height);
+  const TileRect whole{0, 0, static_cast<int32_t>(frame.width), static_cast<int32_t>(frame.height)};
+  uint64_t made = 0;
+  uint32_t number = 0;
+  const BuiltObject* prepared_of = nullptr;
+  std::shared_ptr<const PreparedFractal> prepared;
+  for (const ObjectPlace& place : PlacesSeen(frame, view)) {
+    if (edges->Full()) break;
+    const BuiltObject& object = frame.objects[place.object];
+    if (&object != prepared_of) {
+      prepared_of = &object;
+      prepared = object.prepared;
+      if (coarser != 1) {
+        auto made_coarser = PrepareObject(object, coarser);
+        if (!made_coarser) return made_coarser.error();
+        prepared = std::move(*made_coarser);
+      }
+    }
+    const CullObject cull{prepared.get(), MakeProjection(view, place.transform)};
+    edges->StartPlace(number++, cull.to);
+    const TileFrustum frustum(cull, whole);
+    EdgeSink sink(frustum, edges);
+    for (size_t root = 0; root < prepared->RootCount() && !edges->Full(); ++root) {
+      const Ball ball = prepared->Bound(root);
+      if (!frustum.MayTouch(ball.center, ball.center, ball.center, ball.radius)) continue;
+      made += prepared->Stream(root, sink, 256).triangles;
+    }
+  }
+  return made;
+}
+
+}  // namespace
+
+Result<FrameEdges> EdgesInView(const BuiltFrame& frame, size_t most) {
+  FrameEdges found;
+  // The coarse shapes alone are too many: no fineness will do.
+  EdgeCollector coarse(frame, most, true);
+  const Result<uint64_t> made = Collect(frame, kCoarsest, &coarse);
+  if (!made) return made.error();
+  found.made = *made;
+  found.edges = coarse.Take();
+  found.coarser = kCoarsest;
+  found.longest_only = coarse.left_any();
+  if (found.longest_only) return found;
+  for (double coarser = 1; coarser < kCoarsest; coarser *= 2) {
+    EdgeCollector edges(frame, most, false);
+    const Result<uint64_t> more = Collect(frame, coarser, &edges);
+    if (!more) return more.error();
+    found.made += *more;
+    std::vector<ScreenEdge> taken = edges.Take();
+    if (taken.size() > most) continue;
+    found.edges = std::move(taken);
+    found.coarser = coarser;
+    return found;
+  }
+  return found;
+}
+
+}  // namespace fjord
