@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "engine/formats/known_file.h"
 #include "engine/formats/limits.h"
 #include "engine/formats/read_bytes.h"
 #include "engine/formats/readers.h"
@@ -151,11 +152,15 @@ Result<ShapeFile> ReadShape(std::string_view bytes, const std::string& name) {
     return formats::ReadPly(bytes, name);
   }
   if (text::LooksBinary(bytes)) {
+    if (std::string why = WhyNotShape(bytes); !why.empty()) return Invalid(std::move(why), file);
     return Invalid("the file is binary; shapes are .std, .epf, Wavefront .obj, .ply or .svg", file);
   }
   const size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == bytes.npos) return Invalid("the file holds nothing but spaces", file);
-  if (bytes[first] == '<') return formats::ReadSvg(bytes, name);
+  if (bytes[first] == '<') {
+    std::string why = WhyNotShape(bytes);
+    return why.empty() ? formats::ReadSvg(bytes, name) : Invalid(std::move(why), file);
+  }
   const Guess guess = GuessText(bytes);
   switch (guess.kind) {
     case Kind::kStd:
@@ -170,6 +175,7 @@ Result<ShapeFile> ReadShape(std::string_view bytes, const std::string& name) {
     case Kind::kUnknown:
       break;
   }
+  if (std::string why = WhyNotShape(bytes); !why.empty()) return Invalid(std::move(why), file);
   const std::string ending = EndingOf(name);
   if (ending == ".std" || ending == ".epf") return formats::ReadStd(bytes, name);
   if (ending == ".obj") {
