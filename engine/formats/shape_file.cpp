@@ -8,6 +8,7 @@
 #include "engine/formats/read_bytes.h"
 #include "engine/formats/readers.h"
 #include "engine/formats/text.h"
+#include "engine/formats/xml_document.h"
 
 namespace fjord {
 namespace {
@@ -30,7 +31,7 @@ std::string EndingOf(const std::string& path) {
   return ending;
 }
 
-enum class Kind { kUnknown, kStd, kWavefront, kAnimator };
+enum class TextKind { kUnknown, kStd, kWavefront, kAnimator };
 
 // Lines that only Animator's object file has (W48). They may stand in the free text of a .std file
 // too, so they decide only when nothing else does.
@@ -42,7 +43,7 @@ bool IsAnimatorLine(std::string_view word, std::string_view second) {
 }
 
 struct Guess {
-  Kind kind = Kind::kUnknown;
+  TextKind kind = TextKind::kUnknown;
   int animator_line = 0;
 };
 
@@ -55,20 +56,51 @@ Guess GuessText(std::string_view bytes) {
     text::Word word, second;
     if (!words.Next(&word)) continue;
     if (formats::IsStdDataLine(line.text)) {
-      guess.kind = Kind::kStd;
+      guess.kind = TextKind::kStd;
       return guess;
     }
     const bool has_second = words.Next(&second);
     if (word.text == "v" && has_second && text::LooksLikeNumber(second.text)) {
-      guess.kind = Kind::kWavefront;
+      guess.kind = TextKind::kWavefront;
       return guess;
     }
     if (guess.animator_line == 0 && has_second && IsAnimatorLine(word.text, second.text)) {
       guess.animator_line = line.number;
     }
   }
-  if (guess.animator_line > 0) guess.kind = Kind::kAnimator;
+  if (guess.animator_line > 0) guess.kind = TextKind::kAnimator;
   return guess;
+}
+
+// What a file that is no text may be, by its first bytes, and what to do about it.
+std::string BinaryKind(std::string_view bytes) {
+  struct Kind {
+    std::string_view start;
+    const char* message;
+  };
+  using namespace std::string_view_literals;
+  constexpr std::array<Kind, 8> kKinds = {
+      {{"\x1F\x8B"sv, "the file is compressed by gzip (as .svgz is); unpack it first"},
+       {"PK\x03\x04"sv, "the file is a zip archive; unpack it first"},
+       {"\xFF\xFE"sv, "the file is text in UTF-16; save it as UTF-8"},
+       {"\xFE\xFF"sv, "the file is text in UTF-16; save it as UTF-8"},
+       {"\x89PNG"sv, "the file is a picture; give it as shape { heights { file { ... } } }"},
+       {"v/1\x01"sv, "the file is a picture; give it as shape { heights { file { ... } } }"},
+       {"glTF"sv, "the file is glTF; export the shape as .obj or .ply"},
+       {"BLENDER"sv, "the file is Blender's own; export the shape as .obj or .ply"}}};
+  for (const Kind& kind : kKinds) {
+    if (bytes.substr(0, kind.start.size()) == kind.start) return kind.message;
+  }
+  // A binary STL: 80 bytes of anything, a count, and 50 bytes for each triangle.
+  if (bytes.size() >= 84) {
+    uint64_t count = 0;
+    for (size_t i = 0; i < 4; ++i) {
+      count |= uint64_t{static_cast<unsigned char>(bytes[80 + i])} << (8 * i);
+    }
+    if (bytes.size() == 84 + 50 * count)
+      return "the file is a binary STL; export it as .ply or .obj";
+  }
+  return "the file is binary; shapes are .std, .epf, Wavefront .obj, .ply or .svg";
 }
 
 // The mesh of a shape obeys Mesh's invariants, its curves are curves, its numbers can be read
@@ -147,27 +179,24 @@ Result<ShapeFile> ReadShape(std::string_view bytes, const std::string& name) {
   if (bytes.size() > limits::kFileBytes) {
     return MakeError(ErrorCode::kLimit, "the file is larger than 1 GiB", file);
   }
-  if (bytes.substr(0, 4) == "ply\n" || bytes.substr(0, 4) == "ply\r") {
-    return formats::ReadPly(bytes, name);
-  }
-  if (text::LooksBinary(bytes)) {
-    return Invalid("the file is binary; shapes are .std, .epf, Wavefront .obj, .ply or .svg", file);
-  }
+  if (formats::LooksLikePly(bytes)) return formats::ReadPly(bytes, name);
+  if (formats::LooksLikeWideXml(bytes)) return formats::ReadSvg(bytes, name);
+  if (text::LooksBinary(bytes)) return Invalid(BinaryKind(bytes), file);
   const size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == bytes.npos) return Invalid("the file holds nothing but spaces", file);
   if (bytes[first] == '<') return formats::ReadSvg(bytes, name);
   const Guess guess = GuessText(bytes);
   switch (guess.kind) {
-    case Kind::kStd:
+    case TextKind::kStd:
       return formats::ReadStd(bytes, name);
-    case Kind::kWavefront:
+    case TextKind::kWavefront:
       return formats::ReadObj(bytes, name);
-    case Kind::kAnimator:
+    case TextKind::kAnimator:
       return Invalid(
           "this is an object file of Animator, not of Wavefront; Animator's are not read "
           "yet: give the shape as .std, Wavefront .obj or .ply",
           {name, guess.animator_line, 1});
-    case Kind::kUnknown:
+    case TextKind::kUnknown:
       break;
   }
   const std::string ending = EndingOf(name);
