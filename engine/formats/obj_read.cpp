@@ -45,10 +45,21 @@ std::string_view FirstWord(std::string_view line) {
   return words.Next(&word) ? word.text : std::string_view();
 }
 
+// Where a line's comment begins. The sign in 1.#IND, 1.#INF and 1.#QNAN, which some C libraries
+// print for what is no number, begins none: the vertex would lose that it is bad.
+size_t CommentOf(std::string_view line) {
+  size_t at = line.find('#');
+  while (at != line.npos && at >= 2 && line.substr(at - 2, 2) == "1." && at + 1 < line.size() &&
+         std::string_view("IQSiqs").find(line[at + 1]) != std::string_view::npos) {
+    at = line.find('#', at + 1);
+  }
+  return at;
+}
+
 // A line without its comment and the blanks at its end. A comment ends with its line, whatever it
 // ends in, and blanks may follow the backslash that joins the next line.
 std::string_view Statement(std::string_view line) {
-  line = line.substr(0, line.find('#'));
+  line = line.substr(0, CommentOf(line));
   return line.substr(0, line.find_last_not_of(" \t\v\f") + 1);
 }
 
