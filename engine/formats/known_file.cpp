@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kHead = 65536;  // of a file says what it is
 
-enum class Use { kShape, kModel, kMap, kTerrain, kPicture, kScene, kOther };
+enum class Use { kShape, kModel, kMap, kTerrain, kPicture, kScene, kText, kOther };
 
 struct Known {
   std::string_view name;
@@ -47,6 +47,8 @@ constexpr Magic kMagics[] = {
     {"OFF\n"sv, {"an OFF mesh", Use::kModel}},
     {"OFF\r"sv, {"an OFF mesh", Use::kModel}},
     {"\0\0\x27\x0a"sv, {"a shapefile of a map program", Use::kMap}},
+    {"\xff\xfe"sv, {"text in UTF-16", Use::kText}},
+    {"\xfe\xff"sv, {"text in UTF-16", Use::kText}},
     {"%PDF"sv, {"a PDF document", Use::kOther}},
     {"PK\x03\x04"sv, {"a zip archive", Use::kOther}},
     {"\x1f\x8b"sv, {"a gzip archive", Use::kOther}},
@@ -171,6 +173,8 @@ std::string WhyNotScene(std::string_view bytes, const std::string& name) {
       return what + "; " + std::string(kHeights);
     case Use::kPicture:
       return what + "; save it as .png of 16 bits or .exr, and " + std::string(kHeights);
+    case Use::kText:
+      return what + "; save it as UTF-8";
     default:
       return what + "; a scene has fields such as objects and camera (docs/scene.md)";
   }
@@ -189,6 +193,8 @@ std::string WhyNotShape(std::string_view bytes) {
       return what + "; " + std::string(kHeights);
     case Use::kPicture:
       return what + "; save it as .png of 16 bits or .exr, and " + std::string(kHeights);
+    case Use::kText:
+      return what + "; save it as UTF-8";
     default:
       return what + "; save it as .obj, .ply, .std or, for curves, .svg";
   }
