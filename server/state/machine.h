@@ -157,6 +157,8 @@ class Machine {
   const Key* FindKey(const Digest& key) const;
   const Roster& roster() const { return roster_; }
   const LeaseTable& leases() const { return leases_; }
+  // Frames and jobs looked at so far: what an event costs, whatever the machine's speed. For tests.
+  uint64_t work() const { return work_; }
   // Broken invariants, in words; empty when all is well. Slow: for tests.
   std::vector<std::string> Audit() const;
 
@@ -212,6 +214,7 @@ class Machine {
   std::map<std::string, JobId> by_request_;
   std::map<Digest, Key> keys_;
   std::map<std::string, std::set<Digest>> evidence_of_;  // worker -> keys
+  std::map<JobId, std::set<JobId>> followers_;           // job -> those submitted to run after it
   std::set<JobId> open_;                                 // not ended
   std::set<JobId> touched_;                              // since the last Finish
   std::map<std::string, double> project_ms_;             // render time charged (F7)
@@ -219,6 +222,7 @@ class Machine {
   uint64_t open_frames_ = 0;
   int64_t held_until_ms_ = 0;  // recovered frames wait until then
   uint64_t arrivals_ = 0;
+  uint64_t work_ = 0;
   bool dispatch_ = false;  // something happened that may let a parked call have work
   Effects effects_;
 };

@@ -25,6 +25,7 @@ Job& Machine::AddJob(JobRow row) {
     job.frames[job.order[position]].position = position;
   }
   job.counts.total = job.counts.waiting = total;
+  if (job.row.spec.after != 0) followers_[job.row.spec.after].insert(id);
   touched_.insert(id);
   return job;
 }
