@@ -84,7 +84,9 @@ grpc::ServerUnaryReactor* LeasesService::Join(grpc::CallbackServerContext* conte
                 request->version(),
                 request->threads(),
                 {request->tag().begin(), request->tag().end()},
-                {}};
+                {},
+                {request->ended().begin(), request->ended().end()},
+                request->waited_ms()};
   for (const v1::JoinRequest::Holding& holding : request->holding()) {
     const v1::Unit& unit = holding.unit(0);
     call.holdings.push_back({FromMessage(holding.attempt()), *ParseDigest(unit.scene_digest()),

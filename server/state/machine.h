@@ -82,6 +82,8 @@ struct JoinCall {
   uint32_t threads = 1;
   std::vector<std::string> tags;
   std::vector<Holding> holdings;
+  std::vector<std::string> ended;  // sessions of this worker that are known to be over
+  int64_t waited_ms = 0;           // since this process first asked
 };
 
 struct Delivery {
@@ -182,6 +184,8 @@ class Machine {
   void OpenProject(const std::string& project);
   void Finish(Now now);  // after every event
   Attempt EndAttempt(AttemptId id);
+  // twins.cpp
+  std::optional<Refusal> RefuseTwin(const JoinCall& call, Now now);
   // leases.cpp
   enum class Loss : uint8_t { kGivenBack, kWorkerLost };
   void CloseSession(const std::string& session, const std::vector<Holding>& kept, Loss loss,

@@ -126,7 +126,24 @@ class Story {
         holdings.push_back(BenchFarm::HoldingOf(held.grant));
       }
     }
+    if (Pick(0, 3) == 0) return JoinAsTwin(worker, process);
     farm_.Join(worker, holdings, process);
+  }
+  // Without knowing whether the session before is over: what that one holds stays its own.
+  void JoinAsTwin(const std::string& name, const std::string& process) {
+    JoinCall call;
+    call.worker = name;
+    call.session = name + process;
+    call.waited_ms = Pick(0, 2'000);
+    const server::Worker* known = farm_.machine().roster().FindWorker(name);
+    const std::string before = known == nullptr ? "" : known->session;
+    const size_t held = farm_.machine().leases().CountHeldBy(before);
+    const auto answer = farm_.Join(call);
+    RC_ASSERT(std::holds_alternative<Refusal>(answer) ==
+              (!before.empty() && before != call.session));
+    if (!std::holds_alternative<Refusal>(answer)) return;
+    RC_ASSERT(farm_.machine().roster().FindWorker(name)->session == before);
+    RC_ASSERT(farm_.machine().leases().CountHeldBy(before) == held);
   }
   void Acquire() {
     const std::string session = Worker() + std::to_string(Pick(0, 2));
