@@ -94,6 +94,7 @@ struct Delivery {
   uint64_t triangles = 0;
   uint32_t render_ms = 0;
   bool blob_present = false;
+  uint64_t blob_bytes = 0;
 };
 
 // The state a frame has by its key (M2), and whether its job could use another attempt at it (M5).
@@ -121,6 +122,10 @@ class Machine {
   void Planned(JobId job, uint32_t frame, const Digest& key, Now now);
   void FrameUnplannable(JobId job, uint32_t frame, std::string error, Now now);
   void SceneUnusable(JobId job, std::string error, Now now);
+
+  // --- the store ---
+  // Pictures that are gone: their frames are made again, their keys are known no more (F2).
+  void BlobsLost(const std::vector<Digest>& blobs, Now now);
 
   // --- workers ---
   Answer<std::vector<AttemptId>> Join(const JoinCall& call, Now now);
@@ -192,6 +197,13 @@ class Machine {
                     Now now);
   void LoseWorker(Key& key, const Attempt& attempt, Now now);
   void CountFailure(Key& key, const std::string& worker, const std::string& error, bool final);
+  // evidence.cpp
+  void AddEvidence(Key& key, ResultRow row);
+  template <typename Predicate>
+  void DropEvidence(Key& key, Predicate drops);
+  void DropAllEvidence(Key& key);
+  void DropEvidenceOf(Key& key, const std::string& worker);
+  void IndexEvidence(const Key& key, const ResultRow& row);
   // results.cpp
   bool SceneWants(const Digest& scene, uint32_t frame) const;
   bool Wanted(const Key& key) const;
@@ -218,6 +230,7 @@ class Machine {
   std::map<std::string, JobId> by_request_;
   std::map<Digest, Key> keys_;
   std::map<std::string, std::set<Digest>> evidence_of_;  // worker -> keys
+  std::map<Digest, std::set<Digest>> keys_of_blob_;      // blob -> keys with evidence of it
   std::map<JobId, std::set<JobId>> followers_;           // job -> those submitted to run after it
   std::set<JobId> open_;                                 // not ended
   std::set<JobId> touched_;                              // since the last Finish

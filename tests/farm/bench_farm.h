@@ -172,6 +172,11 @@ class BenchFarm {
     Pump();
   }
 
+  void LoseBlob(const Digest& blob) {
+    machine_->BlobsLost({blob}, now());
+    Pump();
+  }
+
   static Holding HoldingOf(const Grant& grant) {
     return {grant.attempt, grant.scene, grant.frame, grant.key};
   }

@@ -28,7 +28,7 @@ class Story {
   explicit Story(bool liars) : liars_(liars) {}
 
   void Step() {
-    const int what = Pick(0, 16);
+    const int what = Pick(0, 17);
     switch (what) {
       case 0:
         Submit();
@@ -63,6 +63,9 @@ class Story {
         break;
       case 15:
         Restart();
+        break;
+      case 16:
+        LosePicture();
         break;
     }
     RC_ASSERT(!testing::Test::HasFailure());
@@ -163,6 +166,18 @@ class Story {
     if (outcome == nullptr || lie) return;
     if (*outcome == Outcome::kCommitted || *outcome == Outcome::kDuplicate)
       answered_.insert(grant.key);
+  }
+  // The store has lost it; what was answered of its key rests on nothing any more.
+  void LosePicture() {
+    if (answered_.empty()) return;
+    const Digest key = *std::next(answered_.begin(), Pick<size_t>(0, answered_.size()));
+    const Key* known = farm_.machine().FindKey(key);
+    if (known->evidence.empty()) return;
+    const Digest blob = known->evidence.front().blob;
+    farm_.LoseBlob(blob);
+    RC_ASSERT(std::none_of(known->evidence.begin(), known->evidence.end(),
+                           [&](const ResultRow& row) { return row.blob == blob; }));
+    if (known->evidence.empty()) answered_.erase(key);
   }
   void Restart() {
     std::map<JobId, Counts> before;

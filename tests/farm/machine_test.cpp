@@ -202,6 +202,36 @@ TEST_F(MachineTest, F5_AWorkerIdHasOneLivingSession) {
   EXPECT_EQ(refusal(0), std::nullopt);
 }
 
+TEST_F(MachineTest, F2_ALostPictureIsMadeAgain) {
+  const JobId job = farm_.Submit("a", 2), other = farm_.Submit("b", 1);
+  farm_.Join("w");
+  while (const auto grant = farm_.Acquire("w")) farm_.Complete("w", *grant);
+  const JobId again = farm_.Submit("a", 2), cancelled = farm_.Submit("a", 3);
+  farm_.Command(cancelled, JobCommand::kCancel);
+  EXPECT_EQ(farm_.CountsOf(again), (Counts{2, 0, 0, 2, 2, 0}));
+  const Digest blob = farm_.KeyAt(KeyOf("a", 2)).result()->blob;
+  farm_.LoseBlob(Name("nobody's"));
+  EXPECT_EQ(farm_.StateOf(job), JobState::kDone);
+  farm_.LoseBlob(blob);
+  farm_.LoseBlob(blob);
+  for (const JobId id : {job, again}) {
+    EXPECT_EQ(farm_.StateOf(id), JobState::kRunning);
+    EXPECT_EQ(farm_.FrameOf(id, 2), S::kWaiting);
+    EXPECT_EQ(farm_.FrameOf(id, 1), S::kDone);
+  }
+  EXPECT_EQ(farm_.StateOf(other), JobState::kDone);
+  EXPECT_EQ(farm_.StateOf(cancelled), JobState::kCancelled);
+  farm_.Restart();
+  farm_.Pass(10'000);
+  EXPECT_EQ(farm_.FrameOf(job, 2), S::kWaiting) << "the journal does not bring it back";
+  EXPECT_EQ(farm_.CountsOf(again).cached, 1u) << "what is made again was not served from the store";
+  EXPECT_EQ(farm_.CountsOf(farm_.Submit("a", 2)).cached, 1u) << "nor for a new job";
+  farm_.Join("w");
+  EXPECT_EQ(farm_.Complete("w", *farm_.Acquire("w")), Outcome::kCommitted);
+  EXPECT_EQ(farm_.StateOf(job), JobState::kDone);
+  EXPECT_EQ(farm_.StateOf(again), JobState::kDone);
+}
+
 TEST_F(MachineTest, F3_DisputeIsDecidedByAThirdWorker) {
   const JobId job = farm_.Submit("a", 3);
   for (const char* worker : {"liar", "x", "y"}) farm_.Join(worker);
