@@ -1,5 +1,6 @@
-// Speed of the surface method alone: nanoseconds per midpoint and per leaf in the streaming form,
-// by SIMD level, shape and patch size, and of the welded form. CPU time of one thread.
+// Speed of the fractal methods alone: nanoseconds per midpoint and per leaf in the streaming form,
+// of every method of the registry with its defaults; of surface also by SIMD level, shape and patch
+// size, and of the welded form. CPU time of one thread.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -63,38 +64,69 @@ CoarseShape TaiwanRelief() {
   return shape;
 }
 
+CoarseShape Ring() {
+  CoarseShape shape;
+  shape.curve = shape.closed = true;
+  shape.now = shape.rest = {{1, 0, 0}, {.5, .8, 0}, {-.5, .9, 0}, {-1, 0, 0}, {0, -1, 0}};
+  return shape;
+}
+
 struct Case {
   std::string name;
   CoarseShape shape;
-  FractalSettings settings;
+  MethodSettings settings;
 };
 
-std::vector<Case> Cases() {
+std::vector<Case> SurfaceCases() {
   FractalSettings settings;
-  settings.method = "surface";
   settings.increments = Increments::kEven;
+  std::vector<Case> cases;
+  const auto add = [&](const std::string& name, const CoarseShape& shape,
+                       const FractalSettings& chosen) {
+    const FractalSettings all = ResolveSettings(*FindFractalMethod("surface"), chosen);
+    cases.push_back({name, shape, {all, all}});
+  };
   settings.fineness.epsilon = .006;
-  Case quad{"quad", Quad(), settings};
+  add("quad", Quad(), settings);
   settings.fineness.epsilon = .0066;
-  Case taiwan{"taiwan", TaiwanRelief(), settings};
-  Case pixels = taiwan;
-  pixels.name = "taiwan_pixels";
-  pixels.settings.fineness = {0, 1, 2000, .01, Vec3(0, -6, 4), 0};
-  Case coast = taiwan;
-  coast.name = "taiwan_coast";
-  coast.settings.coast = true;
-  Case turned = taiwan;
-  turned.name = "taiwan_perturbed";
-  turned.settings.variant = Variant::kPerturbed;
-  Case midpoint = taiwan;
-  midpoint.name = "taiwan_midpoint";
-  midpoint.settings.increments = Increments::kMidpoint;
-  return {quad, taiwan, pixels, coast, turned, midpoint};
+  const CoarseShape taiwan = TaiwanRelief();
+  add("taiwan", taiwan, settings);
+  FractalSettings one = settings;
+  one.fineness = {0, 1, 2000, .01, Vec3(0, -6, 4), 0};
+  add("taiwan_pixels", taiwan, one);
+  one = settings;
+  one.coast = true;
+  add("taiwan_coast", taiwan, one);
+  one = settings;
+  one.variant = Variant::kPerturbed;
+  add("taiwan_perturbed", taiwan, one);
+  one = settings;
+  one.increments = Increments::kMidpoint;
+  add("taiwan_midpoint", taiwan, one);
+  return cases;
+}
+
+// Every method as its table has it.
+std::vector<Case> MethodCases() {
+  std::vector<Case> cases;
+  for (const MethodInfo& method : FractalMethods()) {
+    const bool line = method.takes == Takes::kCurve;
+    Case one{std::string(method.name), line ? Ring() : Quad(), {}};
+    if (method.takes == Takes::kFaces) {
+      one.shape.triangles.clear();
+      one.shape.face_size = {4};
+      one.shape.face_vertex = {0, 1, 2, 3};
+    }
+    one.settings.method = method.name;
+    one.settings.own = method.knobs.defaults();
+    one.settings.fineness.epsilon = line ? 1e-5 : .006;
+    cases.push_back(std::move(one));
+  }
+  return cases;
 }
 
 std::unique_ptr<PreparedFractal> PrepareCase(const Case& one) {
-  const MethodInfo* method = FindFractalMethod("surface");
-  auto prepared = PrepareMidpoint(*method, one.shape, one.settings);
+  auto prepared = PrepareMethod(one.shape, one.settings);
   FJORD_CHECK(prepared.ok(), prepared.error().message);
   return std::move(*prepared);
 }
@@ -140,21 +172,25 @@ void Weld(benchmark::State& state, const Case& one, bool write) {
   Report(state, static_cast<double>(points), static_cast<double>(leaves));
 }
 
+void AddStream(const Case& one, const std::string& kind, const std::string& level, size_t patch) {
+  const auto least = [](const std::vector<double>& v) {
+    return *std::min_element(v.begin(), v.end());
+  };
+  benchmark::RegisterBenchmark(
+      (kind + "/" + one.name + "/" + level + "/" + std::to_string(patch)).c_str(),
+      [&one, level, patch](benchmark::State& state) { Stream(state, one, level, patch); })
+      ->Unit(benchmark::kMillisecond)
+      ->ComputeStatistics("min", least);
+}
+
 void Register() {
-  static const std::vector<Case> kCases = Cases();
-  for (const Case& one : kCases) {
-    const auto least = [](const std::vector<double>& v) {
-      return *std::min_element(v.begin(), v.end());
-    };
-    const auto add = [&](const std::string& level, size_t patch) {
-      benchmark::RegisterBenchmark(
-          ("stream/" + one.name + "/" + level + "/" + std::to_string(patch)).c_str(),
-          [&one, level, patch](benchmark::State& state) { Stream(state, one, level, patch); })
-          ->Unit(benchmark::kMillisecond)
-          ->ComputeStatistics("min", least);
-    };
-    for (const std::string& level : SimdLevels()) add(level, 2048);
-    for (const size_t patch : {256, 512, 1024, 4096}) add(SimdLevels().back(), patch);
+  static const std::vector<Case> kSurface = SurfaceCases();
+  static const std::vector<Case> kMethods = MethodCases();
+  const std::string best = SimdLevels().back();
+  for (const Case& one : kMethods) AddStream(one, "method", best, 2048);
+  for (const Case& one : kSurface) {
+    for (const std::string& level : SimdLevels()) AddStream(one, "stream", level, 2048);
+    for (const size_t patch : {256, 512, 1024, 4096}) AddStream(one, "stream", best, patch);
     for (const bool write : {false, true}) {
       benchmark::RegisterBenchmark(
           ((write ? "weld_ply/" : "weld/") + one.name).c_str(),

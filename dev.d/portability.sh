@@ -50,7 +50,8 @@ green_key() {
   tools=$(for tool in g++ clang++ aarch64-linux-gnu-g++ qemu-aarch64-static; do
     "$tool" --version 2>/dev/null | head -n 1 || true
   done
-  dpkg-query -W libprotobuf-dev libhwy-dev libtbb-dev libglm-dev libssl-dev nlohmann-json3-dev 2>/dev/null || true)
+  dpkg-query -W libprotobuf-dev libhwy-dev libtbb-dev libglm-dev libssl-dev nlohmann-json3-dev \
+    libexpat1-dev 2>/dev/null || true)
   [[ -z $probe ]] || tools+=$("$probe" --levels)$(sha256sum <"$probe")
   python3 "$here/green.py" key gate "$form" "$native" "$cross" "$only" "$tools" -- \
     "$root/CMakeLists.txt" "$root/cmake" "$root/engine" "$root/proto" "$root/tests/CMakeLists.txt" \
@@ -112,7 +113,9 @@ runs() {
 # by an apt of its own: no root is needed, and the machine's list of architectures stays as it is.
 sysroot() {
   local arch=$1 triple=$2 dir=$work/sysroot-$1 apt=$work/apt-$1
-  [[ -f $dir/complete ]] && return 0
+  local packages=(libprotobuf-dev libprotobuf32 zlib1g zlib1g-dev libssl-dev libssl3 libtbb-dev libtbb12
+    libtbbmalloc2 libtbbbind-2-5 libhwy-dev libhwy1 libglm-dev nlohmann-json3-dev libexpat1-dev libexpat1)
+  [[ -f $dir/complete && $(<"$dir/complete") == "${packages[*]}" ]] && return 0
   rm -rf "$dir" "$apt"
   mkdir -p "$dir" "$apt/lists/partial" "$apt/archives/partial" "$apt/debs"
   : >"$apt/status"
@@ -120,9 +123,7 @@ sysroot() {
     -o "Dir::State::lists=$apt/lists" -o "Dir::State::status=$apt/status" -o "Dir::Cache=$apt"
     -o APT::Sandbox::User= -o Acquire::Languages=none -o Debug::NoLocking=1)
   if ! { apt-get "${options[@]}" update &&
-    (cd "$apt/debs" && apt-get "${options[@]}" download libprotobuf-dev libprotobuf32 zlib1g zlib1g-dev \
-      libssl-dev libssl3 libtbb-dev libtbb12 libtbbmalloc2 libtbbbind-2-5 libhwy-dev libhwy1 libglm-dev \
-      nlohmann-json3-dev); } >"$apt/log" 2>&1; then
+    (cd "$apt/debs" && apt-get "${options[@]}" download "${packages[@]}"); } >"$apt/log" 2>&1; then
     tail -n 5 "$apt/log" >&2
     say "gate: Debian's $arch libraries cannot be fetched; all of it is in $apt/log"
     return 1
@@ -137,7 +138,7 @@ sysroot() {
     rm -rf "$dir/lib"
   fi
   rm -rf "$apt"
-  touch "$dir/complete"
+  printf '%s' "${packages[*]}" >"$dir/complete"
 }
 
 # foreign ARCHITECTURE TRIPLE QEMU OPTIMISATION

@@ -1,6 +1,7 @@
 #include "server/blob_store.h"
 
 #include <fcntl.h>
+#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,6 +15,8 @@
 namespace fjord::server {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr size_t kCheckBytes = size_t{1} << 20;  // read at a time
 
 Error DiskError(const std::string& doing, const std::string& path, int cause) {
   std::string message = doing + ": " + strerror(cause);
@@ -63,7 +66,9 @@ Result<bool> BlobWriter::Commit() {
     return Invalid("digest: the bytes announced as " + digest_.Hex() + " are " + actual.Hex());
   }
   if (fsync(file_) != 0) return DiskError("cannot sync blob " + digest_.Hex(), path_, errno);
-  Result<bool> placed = store_.Place(digest_, path_);
+  const std::optional<BlobStore::Stamp> stamp = BlobStore::StampOf(file_);
+  if (!stamp) return DiskError("cannot store blob " + digest_.Hex(), path_, errno);
+  Result<bool> placed = store_.Place(digest_, path_, *stamp);
   if (!placed.ok()) return placed;
   close(file_);
   file_ = -1;
@@ -106,7 +111,9 @@ Result<> BlobStore::Prepare() {
     std::error_code inner;
     for (const fs::directory_entry& file : fs::directory_iterator(folder.path(), inner)) {
       if (const auto digest = ParseDigest(prefix + file.path().filename().string())) {
-        known_.insert(*digest);
+        std::error_code gone;
+        const uint64_t size = file.file_size(gone);
+        if (!gone) known_[*digest] = {size, {}};
       }
     }
   }
@@ -134,9 +141,67 @@ std::string BlobStore::PathOf(const Digest& digest) const {
   return FolderOf(digest) + "/" + digest.Hex().substr(2);
 }
 
-bool BlobStore::Has(const Digest& digest) const {
+std::optional<uint64_t> BlobStore::SizeOf(const Digest& digest) const {
   const std::lock_guard lock(mutex_);
-  return known_.contains(digest);
+  const auto place = known_.find(digest);
+  if (place == known_.end()) return std::nullopt;
+  return place->second.size;
+}
+
+std::optional<BlobStore::Stamp> BlobStore::StampOf(int file) {
+  struct stat info {};
+  if (fstat(file, &info) != 0) return std::nullopt;
+  return Stamp{static_cast<uint64_t>(info.st_size), info.st_ino,
+               info.st_mtim.tv_sec * int64_t{1'000'000'000} + info.st_mtim.tv_nsec};
+}
+
+bool BlobStore::Check(const Digest& digest, Reading reading) {
+  if (!Has(digest)) return false;
+  const int file = open(PathOf(digest).c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) {
+    if (errno == ENOENT) Lose(digest, {}, "its file is gone");
+    return errno != ENOENT;
+  }
+  const std::optional<Stamp> stamp = StampOf(file);
+  BlobReader reader(file, stamp ? stamp->size : 0, PathOf(digest));
+  if (!stamp) return true;
+  if (reading == Reading::kUnlessKnown) {
+    const std::lock_guard lock(mutex_);
+    const auto place = known_.find(digest);
+    if (place != known_.end() && place->second.checked == stamp) return true;
+  }
+  Sha256 sha;
+  while (true) {
+    const Result<std::string> bytes = reader.Read(kCheckBytes);
+    if (!bytes.ok()) {
+      Lose(digest, *stamp, "its file cannot be read: " + bytes.error().message);
+      return false;
+    }
+    if (bytes->empty()) break;
+    sha.Update(*bytes);
+  }
+  if (sha.Finish() != digest) {
+    Lose(digest, *stamp, "its file of " + std::to_string(stamp->size) + " bytes holds others");
+    return false;
+  }
+  const std::lock_guard lock(mutex_);
+  if (const auto place = known_.find(digest); place != known_.end()) place->second.checked = stamp;
+  return true;
+}
+
+// `seen`: the file that is wrong; another may have been put in its place meanwhile.
+void BlobStore::Lose(const Digest& digest, const Stamp& seen, const std::string& why) {
+  const std::string path = PathOf(digest);
+  {
+    const std::lock_guard lock(mutex_);
+    struct stat info {};
+    const bool there = stat(path.c_str(), &info) == 0;
+    if (there && info.st_ino != seen.inode) return;
+    if (known_.erase(digest) == 0) return;
+    if (there) unlink(path.c_str());
+  }
+  spdlog::warn("blob {} is lost, {}: {}", digest.Hex(), why, path);
+  if (on_lost_) on_lost_(digest);
 }
 
 size_t BlobStore::count() const {
@@ -161,7 +226,7 @@ Result<std::unique_ptr<BlobWriter>> BlobStore::Begin(const Digest& digest, uint6
 }
 
 // From the temporary place to the lasting one; false: it was not there before.
-Result<bool> BlobStore::Place(const Digest& digest, const std::string& from) {
+Result<bool> BlobStore::Place(const Digest& digest, const std::string& from, const Stamp& stamp) {
   const std::string folder = FolderOf(digest);
   const std::string prefix = digest.Hex().substr(0, 2);
   bool fresh_folder = false;
@@ -184,11 +249,11 @@ Result<bool> BlobStore::Place(const Digest& digest, const std::string& from) {
   if (const Result<> synced = SyncFolder(folder); !synced.ok()) return synced.error();
   const std::lock_guard lock(mutex_);
   folders_.insert(prefix);
-  return !known_.insert(digest).second;
+  return !known_.emplace(digest, Known{stamp.size, stamp}).second;
 }
 
 Result<bool> BlobStore::Put(const Digest& digest, std::string_view bytes) {
-  if (Has(digest)) return true;
+  if (Check(digest)) return true;
   Result<std::unique_ptr<BlobWriter>> writer = Begin(digest, bytes.size());
   if (!writer.ok()) return writer.error();
   if (const Result<> appended = writer.value()->Append(bytes); !appended.ok())
@@ -196,11 +261,15 @@ Result<bool> BlobStore::Put(const Digest& digest, std::string_view bytes) {
   return writer.value()->Commit();
 }
 
-Result<std::unique_ptr<BlobReader>> BlobStore::OpenBlob(const Digest& digest) const {
+Result<std::unique_ptr<BlobReader>> BlobStore::OpenBlob(const Digest& digest) {
   const std::string path = PathOf(digest);
   if (!Has(digest))
     return MakeError(ErrorCode::kNotFound, "no blob " + digest.Hex() + " in the store");
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0 && errno == ENOENT) {
+    Lose(digest, {}, "its file is gone");
+    return MakeError(ErrorCode::kNotFound, "the store has lost blob " + digest.Hex());
+  }
   struct stat info {};
   if (file < 0 || fstat(file, &info) != 0) {
     const int cause = errno;
@@ -211,7 +280,7 @@ Result<std::unique_ptr<BlobReader>> BlobStore::OpenBlob(const Digest& digest) co
       new BlobReader(file, static_cast<uint64_t>(info.st_size), path));
 }
 
-Result<std::string> BlobStore::Get(const Digest& digest, uint64_t most) const {
+Result<std::string> BlobStore::Get(const Digest& digest, uint64_t most) {
   Result<std::unique_ptr<BlobReader>> reader = OpenBlob(digest);
   if (!reader.ok()) return reader.error();
   if (reader.value()->size() > most) {
@@ -219,7 +288,10 @@ Result<std::string> BlobStore::Get(const Digest& digest, uint64_t most) const {
                                             std::to_string(reader.value()->size()) +
                                             " bytes is over the limit of " + std::to_string(most));
   }
-  return reader.value()->Read(static_cast<size_t>(reader.value()->size()));
+  Result<std::string> bytes = reader.value()->Read(static_cast<size_t>(reader.value()->size()));
+  if (!bytes.ok() || Sha256Of(*bytes) == digest) return bytes;
+  Check(digest, Reading::kAnew);
+  return MakeError(ErrorCode::kNotFound, "the store has lost blob " + digest.Hex());
 }
 
 }  // namespace fjord::server

@@ -4,11 +4,17 @@
 //    place, and its folder synced, before anyone is told that it is there (F2).
 // B2 A crash leaves only files in DIR/tmp, which Open removes.
 // B3 What a full disk or a wrong digest interrupts leaves nothing.
-// Thread-safe; Has asks memory only, the rest does disk work in the calling thread.
+// B4 A blob whose file is gone, or holds other bytes, is noticed by whoever asks for it (Check,
+// Get),
+//    is there no more, and can be put again.
+// Thread-safe; Has and SizeOf ask memory only, the rest does disk work in the calling thread.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -70,29 +76,51 @@ class BlobStore {
  public:
   static Result<std::unique_ptr<BlobStore>> Open(const std::string& dir, uint64_t limit);
 
-  bool Has(const Digest& digest) const;
+  // Called, from any thread, after a blob was found to be gone. Set before others use the store.
+  void OnLost(std::function<void(const Digest&)> on_lost) { on_lost_ = std::move(on_lost); }
+
+  bool Has(const Digest& digest) const { return SizeOf(digest).has_value(); }
+  std::optional<uint64_t> SizeOf(const Digest& digest) const;
+  // Reads the whole blob, but where the file is the one that was written or read before, by its
+  // stamp. kAnew: in any case. False: it is not there (any more).
+  enum class Reading : uint8_t { kUnlessKnown, kAnew };
+  bool Check(const Digest& digest, Reading reading = Reading::kUnlessKnown);
   size_t count() const;
   // kLimit: larger than the store's limit.
   Result<std::unique_ptr<BlobWriter>> Begin(const Digest& digest, uint64_t size);
   Result<bool> Put(const Digest& digest, std::string_view bytes);
   // kNotFound: no such blob.
-  Result<std::unique_ptr<BlobReader>> OpenBlob(const Digest& digest) const;
-  // kLimit: larger than `most`.
-  Result<std::string> Get(const Digest& digest, uint64_t most) const;
+  Result<std::unique_ptr<BlobReader>> OpenBlob(const Digest& digest);
+  // kLimit: larger than `most`. kNotFound also where the file does not hold the blob's bytes.
+  Result<std::string> Get(const Digest& digest, uint64_t most);
 
  private:
   friend class BlobWriter;
+  // What tells one state of a file from another without reading it.
+  struct Stamp {
+    uint64_t size = 0;
+    uint64_t inode = 0;
+    int64_t changed_ns = 0;
+    friend bool operator==(const Stamp&, const Stamp&) = default;
+  };
+  struct Known {
+    uint64_t size = 0;
+    std::optional<Stamp> checked;  // the file held the right bytes then
+  };
+  static std::optional<Stamp> StampOf(int file);
   BlobStore(std::string dir, uint64_t limit) : dir_(std::move(dir)), limit_(limit) {}
   Result<> Prepare();
   std::string FolderOf(const Digest& digest) const;
   std::string PathOf(const Digest& digest) const;
-  Result<bool> Place(const Digest& digest, const std::string& from);
+  Result<bool> Place(const Digest& digest, const std::string& from, const Stamp& stamp);
+  void Lose(const Digest& digest, const Stamp& seen, const std::string& why);
 
   const std::string dir_;
   const uint64_t limit_;
+  std::function<void(const Digest&)> on_lost_;
 
   mutable std::mutex mutex_;
-  std::set<Digest> known_;  // synced and in place
+  std::map<Digest, Known> known_;  // synced and in place
   std::set<std::string> folders_;
   uint64_t next_tmp_ = 0;
 };

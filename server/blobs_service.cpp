@@ -45,7 +45,7 @@ class PutCall : public grpc::ServerReadReactor<v1::PutBlobRequest> {
     }
     if (writer_ == nullptr) {
       const Digest digest = *ParseDigest(request_.digest());
-      if (blobs_.Has(digest)) {
+      if (blobs_.Check(digest)) {
         response_->set_existed(true);
         return Finish(grpc::Status::OK);
       }
@@ -88,6 +88,8 @@ class GetCall : public grpc::ServerWriteReactor<v1::GetBlobResponse> {
     }
     const Digest digest = *ParseDigest(request.digest());
     const bool taken = place_.free() && pool_.Post([this, &blobs, digest] {
+      // Nobody is given the first bytes of a blob that is damaged.
+      (void)blobs.Check(digest, BlobStore::Reading::kAnew);
       Result<std::unique_ptr<BlobReader>> reader = blobs.OpenBlob(digest);
       if (!reader.ok()) return Finish(ToStatus(reader.error()));
       reader_ = std::move(*reader);
@@ -134,10 +136,13 @@ grpc::ServerUnaryReactor* BlobsService::Missing(grpc::CallbackServerContext* con
     reactor->Finish(ToStatus(*objection));
     return reactor;
   }
-  for (const std::string& digest : request->digest()) {
-    if (!blobs_.Has(*ParseDigest(digest))) response->add_digest(digest);
-  }
-  reactor->Finish(grpc::Status::OK);
+  const bool taken = pool_.Post([this, request, response, reactor] {
+    for (const std::string& digest : request->digest()) {
+      if (!blobs_.Check(*ParseDigest(digest))) response->add_digest(digest);
+    }
+    reactor->Finish(grpc::Status::OK);
+  });
+  if (!taken) reactor->Finish(BusyStatus());
   return reactor;
 }
 

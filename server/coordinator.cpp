@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <future>
 
 namespace fjord::server {
 namespace {
@@ -17,12 +18,14 @@ const Refusal kStopping{Code::kUnavailable, "the coordinator is stopping"};
 }  // namespace
 
 Coordinator::Coordinator(const MachineConfig& config, Snapshot snapshot, Journal& journal,
-                         FramePlanner& frames, const Clock& clock,
+                         FramePlanner& frames, const Clock& clock, Store store,
                          std::function<void(const Error&)> on_failure)
     : clock_(clock),
+      store_(std::move(store)),
       machine_(config, std::move(snapshot), clock.Read()),
       writer_(journal, std::move(on_failure)) {
   planner_.emplace(frames, [this](Planner::Answer answer) {
+    CheckPictures(answer);
     PostInner([answer = std::move(answer)](Machine& machine, Now now) {
       if (answer.unusable) machine.SceneUnusable(answer.job, answer.unusable->message, now);
       for (const auto& [frame, key] : answer.keys) {
@@ -151,6 +154,21 @@ void Coordinator::Apply() {
   for (const Notice& notice : effects.notices) {
     spdlog::log(notice.alarm ? spdlog::level::err : spdlog::level::warn, "{}", notice.text);
   }
+}
+
+// On the planner's thread: a frame whose key is known is done at once, if its picture can be given
+// out. What is lost is told to the machine before it hears of these keys.
+void Coordinator::CheckPictures(const Planner::Answer& answer) {
+  std::promise<std::set<Digest>> asked;
+  PostInner([&](const Machine& machine, Now) {
+    std::set<Digest> blobs;
+    for (const auto& [frame, digest] : answer.keys) {
+      const Key* key = digest.ok() ? machine.FindKey(digest.value()) : nullptr;
+      if (key != nullptr && key->done()) blobs.insert(key->result()->blob);
+    }
+    asked.set_value(std::move(blobs));
+  });
+  for (const Digest& blob : asked.get_future().get()) (void)store_.has_picture(blob);
 }
 
 void Coordinator::Run() {

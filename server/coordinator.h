@@ -39,8 +39,13 @@ class Coordinator {
   using Task = std::function<void(Machine& machine, Now now)>;
   using AcquireReply = std::function<void(const AcquireAnswer& answer)>;
 
+  // What the coordinator asks of the disk beside the journal.
+  struct Store {
+    // Whether a picture can be given out; false: its loss was told (BlobsLost). Any thread.
+    std::function<bool(const Digest& blob)> has_picture;
+  };
   Coordinator(const MachineConfig& config, Snapshot snapshot, Journal& journal,
-              FramePlanner& frames, const Clock& clock,
+              FramePlanner& frames, const Clock& clock, Store store,
               std::function<void(const Error&)> on_failure);
   // Answers all that waits with UNAVAILABLE, writes what is left.
   ~Coordinator();
@@ -65,11 +70,13 @@ class Coordinator {
   void Unwatch(JobId job, Watcher* watcher);
 
  private:
+  void CheckPictures(const Planner::Answer& answer);
   void Run();
   void Apply();
   void Deliver(const AcquireAnswer& answer);
 
   const Clock& clock_;
+  const Store store_;
   Machine machine_;
   JournalWriter writer_;
   std::optional<Planner> planner_;

@@ -19,7 +19,7 @@ inline constexpr uint64_t kMaxAssetBytes = uint64_t{1} << 30;
 // them. For one thread, but for Stop. Keeps the last few animations.
 class EnginePlanner : public FramePlanner {
  public:
-  EnginePlanner(const BlobStore& blobs, double frame_budget)
+  EnginePlanner(BlobStore& blobs, double frame_budget)
       : blobs_(blobs), frame_budget_(frame_budget) {}
 
   Result<uint32_t> LastFrame(const Digest& scene) override;
@@ -29,7 +29,7 @@ class EnginePlanner : public FramePlanner {
  private:
   Result<std::shared_ptr<const Animation>> AnimationOf(const Digest& scene);
 
-  const BlobStore& blobs_;
+  BlobStore& blobs_;
   const double frame_budget_;
   std::atomic<bool> stop_{false};
   std::list<std::pair<Digest, std::shared_ptr<const Animation>>> recent_;

@@ -10,7 +10,7 @@ namespace fjord::server {
 
 class JobsService : public v1::Jobs::CallbackService {
  public:
-  JobsService(Coordinator& coordinator, const BlobStore& blobs, IoPool& pool)
+  JobsService(Coordinator& coordinator, BlobStore& blobs, IoPool& pool)
       : coordinator_(coordinator), blobs_(blobs), pool_(pool) {}
 
   grpc::ServerUnaryReactor* Submit(grpc::CallbackServerContext* context,
@@ -40,7 +40,7 @@ class JobsService : public v1::Jobs::CallbackService {
                      grpc::ServerUnaryReactor* reactor);
 
   Coordinator& coordinator_;
-  const BlobStore& blobs_;
+  BlobStore& blobs_;
   IoPool& pool_;
 };
 

@@ -31,12 +31,17 @@ constexpr const char* kSchema[] = {
     " cached BIGINT NOT NULL, error TEXT NOT NULL, PRIMARY KEY (job, number)) WITHOUT ROWID",
     "CREATE TABLE result (key TEXT NOT NULL, epoch BIGINT NOT NULL, sequence BIGINT NOT NULL,"
     " worker TEXT NOT NULL, pixel TEXT NOT NULL, blob TEXT NOT NULL, triangles BIGINT NOT NULL,"
-    " render_ms BIGINT NOT NULL, PRIMARY KEY (key, epoch, sequence, worker, pixel))"
-    " WITHOUT ROWID",
+    " render_ms BIGINT NOT NULL, bytes BIGINT NOT NULL DEFAULT 0,"
+    " PRIMARY KEY (key, epoch, sequence, worker, pixel)) WITHOUT ROWID",
     "CREATE TABLE key (key TEXT PRIMARY KEY, failures BIGINT NOT NULL, lost BIGINT NOT NULL,"
     " failed BIGINT NOT NULL, error TEXT NOT NULL) WITHOUT ROWID",
     "CREATE TABLE worker (id TEXT PRIMARY KEY, draining BIGINT NOT NULL,"
     " quarantined BIGINT NOT NULL) WITHOUT ROWID",
+};
+
+// What version 1 did not have.
+constexpr const char* kFromVersion1[] = {
+    "ALTER TABLE result ADD COLUMN bytes BIGINT NOT NULL DEFAULT 0",
 };
 
 int64_t MicrosNow() {
@@ -109,8 +114,8 @@ class SqliteJournal : public Journal {
                      "INSERT OR REPLACE INTO job VALUES (:a, :b, :c, :d, :e, :f, :g, :h, :i, :j,"
                      " :k, :l, :m, :n, :o, :p)"};
   Statement put_frame_{sql_, "INSERT OR REPLACE INTO frame VALUES (:a, :b, :c, :d, :e)"};
-  Statement put_result_{sql_,
-                        "INSERT OR REPLACE INTO result VALUES (:a, :b, :c, :d, :e, :f, :g, :h)"};
+  Statement put_result_{
+      sql_, "INSERT OR REPLACE INTO result VALUES (:a, :b, :c, :d, :e, :f, :g, :h, :i)"};
   Statement drop_result_{sql_,
                          "DELETE FROM result WHERE key = :a AND epoch = :b AND sequence = :c AND "
                          "worker = :d AND pixel = :e"};
@@ -141,7 +146,8 @@ void SqliteJournal::Write(const FrameRow& row) {
 
 void SqliteJournal::Write(const ResultRow& row) {
   Run(put_result_, row.key.Hex(), Number(row.attempt.epoch), Number(row.attempt.sequence),
-      row.worker, row.pixel.Hex(), row.blob.Hex(), Number(row.triangles), Number(row.render_ms));
+      row.worker, row.pixel.Hex(), row.blob.Hex(), Number(row.triangles), Number(row.render_ms),
+      Number(row.bytes));
 }
 
 void SqliteJournal::Write(const DropResult& row) {
@@ -170,6 +176,13 @@ void SqliteJournal::Migrate() {
   }
   std::string version;
   sql_ << "SELECT value FROM meta WHERE name = 'schema'", soci::into(version);
+  if (version == "1") {
+    sql_ << "BEGIN IMMEDIATE";
+    for (const char* statement : kFromVersion1) sql_ << statement;
+    version = std::to_string(kSchemaVersion);
+    sql_ << "UPDATE meta SET value = :v WHERE name = 'schema'", soci::use(version);
+    sql_ << "COMMIT";
+  }
   if (version != std::to_string(kSchemaVersion)) {
     throw std::runtime_error("its format is version " + version + ", this program knows version " +
                              std::to_string(kSchemaVersion) +
@@ -306,7 +319,8 @@ Result<Snapshot> SqliteJournal::Load() {
            row.Hash(4),
            row.Hash(5),
            static_cast<uint64_t>(row.Int(6)),
-           static_cast<uint32_t>(row.Int(7))});
+           static_cast<uint32_t>(row.Int(7)),
+           static_cast<uint64_t>(row.Int(8))});
     });
     each("SELECT * FROM key", [&](const Row& row) {
       snapshot.keys.push_back({row.Hash(0), static_cast<uint32_t>(row.Int(1)),

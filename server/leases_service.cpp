@@ -84,7 +84,9 @@ grpc::ServerUnaryReactor* LeasesService::Join(grpc::CallbackServerContext* conte
                 request->version(),
                 request->threads(),
                 {request->tag().begin(), request->tag().end()},
-                {}};
+                {},
+                {request->ended().begin(), request->ended().end()},
+                request->waited_ms()};
   for (const v1::JoinRequest::Holding& holding : request->holding()) {
     const v1::Unit& unit = holding.unit(0);
     call.holdings.push_back({FromMessage(holding.attempt()), *ParseDigest(unit.scene_digest()),
@@ -161,15 +163,17 @@ grpc::ServerUnaryReactor* LeasesService::Complete(grpc::CallbackServerContext* c
                       *ParseDigest(result.blob_digest()),
                       result.triangles(),
                       result.render_ms()};
-    delivery.blob_present = blobs_.Has(delivery.blob);
     deliveries.push_back(delivery);
   }
   AnswerAfterCommit(
       coordinator_, reactor,
-      [session = request->session_id(), deliveries = std::move(deliveries), response](
-          Machine& machine, Now now) {
+      [this, session = request->session_id(), deliveries = std::move(deliveries), response](
+          Machine& machine, Now now) mutable {
         Objection refusal;
-        for (const Delivery& delivery : deliveries) {
+        for (Delivery& delivery : deliveries) {
+          const std::optional<uint64_t> size = blobs_.SizeOf(delivery.blob);
+          delivery.blob_present = size.has_value();
+          delivery.blob_bytes = size.value_or(0);
           const auto answer = machine.Complete(session, delivery, now);
           if (const Outcome* outcome = ValueOf(answer, refusal)) {
             response->add_outcome(static_cast<v1::CompleteResponse::Outcome>(*outcome));

@@ -8,6 +8,8 @@
 
 #include <chrono>
 #include <mutex>
+#include <set>
+#include <vector>
 
 #include "proto/fjord/address.h"
 #include "proto/fjord/protocol.h"
@@ -24,6 +26,17 @@ constexpr size_t kMaxDiskWork = 4'000;
 constexpr std::chrono::milliseconds kLastWords{200};
 constexpr int kKeepaliveMs = 20'000;
 constexpr int kShortestPingMs = 5'000;
+
+// Known by their files' sizes alone: what they hold is looked at when it is asked for.
+std::vector<Digest> LostPictures(const Snapshot& snapshot, BlobStore& blobs) {
+  std::set<Digest> lost;
+  for (const ResultRow& row : snapshot.results) {
+    const std::optional<uint64_t> size = blobs.SizeOf(row.blob);
+    const bool whole = size && *size > 0 && (row.bytes == 0 || row.bytes == *size);
+    if (!whole && !blobs.Check(row.blob)) lost.insert(row.blob);
+  }
+  return {lost.begin(), lost.end()};
+}
 
 class ServerImpl : public Server {
  public:
@@ -92,12 +105,22 @@ Result<> ServerImpl::Start() {
   spdlog::info("epoch {}: {} jobs, {} pictures known, {} blobs", epoch_, snapshot->jobs.size(),
                snapshot->results.size(), blobs_->count());
   pool_ = std::make_unique<IoPool>(config_.io_threads, kMaxDiskWork);
-  coordinator_ =
-      std::make_unique<Coordinator>(config_.machine, std::move(*snapshot), *journal_,
-                                    *config_.planner, clock_, [this](const Error& error) {
-                                      spdlog::critical("{}", error.ToString());
-                                      if (config_.on_failure) config_.on_failure(error);
-                                    });
+  const std::vector<Digest> lost = LostPictures(*snapshot, *blobs_);
+  coordinator_ = std::make_unique<Coordinator>(
+      config_.machine, std::move(*snapshot), *journal_, *config_.planner, clock_,
+      Coordinator::Store{[this](const Digest& blob) { return blobs_->Check(blob); }},
+      [this](const Error& error) {
+        spdlog::critical("{}", error.ToString());
+        if (config_.on_failure) config_.on_failure(error);
+      });
+  blobs_->OnLost([coordinator = coordinator_.get()](const Digest& blob) {
+    coordinator->PostInner([blob](Machine& machine, Now now) { machine.BlobsLost({blob}, now); });
+  });
+  if (!lost.empty()) {
+    spdlog::warn("{} stored pictures are gone or cut off: their frames are made again",
+                 lost.size());
+    coordinator_->PostInner([lost](Machine& machine, Now now) { machine.BlobsLost(lost, now); });
+  }
   return Bind();
 }
 

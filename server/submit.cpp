@@ -33,7 +33,7 @@ std::string ContentOf(v1::SubmitRequest request) {
 
 }  // namespace
 
-Answer<JobSpec> ReadSubmission(const v1::SubmitRequest& request, const BlobStore& blobs) {
+Answer<JobSpec> ReadSubmission(const v1::SubmitRequest& request, BlobStore& blobs) {
   const Digest digest = *ParseDigest(request.scene_digest());
   const Result<std::string> bytes = blobs.Get(digest, kMaxSceneBytes);
   if (!bytes.ok()) {
@@ -52,7 +52,7 @@ Answer<JobSpec> ReadSubmission(const v1::SubmitRequest& request, const BlobStore
       return Refusal{Code::kInvalid,
                      "scene: file \"" + file->path() + "\" is named without a digest"};
     }
-    if (!blobs.Has(*asset)) {
+    if (!blobs.Check(*asset)) {
       return Refusal{Code::kNotFound, "scene: file \"" + file->path() + "\" (" + file->digest() +
                                           ") is not in the store; put it first"};
     }

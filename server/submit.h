@@ -9,6 +9,6 @@ namespace fjord::server {
 
 // The request was validated. Reads the scene from the store: not for a message handler.
 // Refused: scene or assets missing, not a scene, frames outside the animation.
-Answer<JobSpec> ReadSubmission(const v1::SubmitRequest& request, const BlobStore& blobs);
+Answer<JobSpec> ReadSubmission(const v1::SubmitRequest& request, BlobStore& blobs);
 
 }  // namespace fjord::server

@@ -151,7 +151,9 @@ Objection Validate(const v1::JoinRequest& request) {
       .Text("version", request.version(), 0, kMaxIdBytes)
       .Range("threads", request.threads(), 0, 65536)
       .Range("tag", request.tag_size(), 0, kMaxTags)
-      .Range("holding", request.holding_size(), 0, kMaxHoldings);
+      .Range("holding", request.holding_size(), 0, kMaxHoldings)
+      .Range("ended", request.ended_size(), 0, kMaxEnded);
+  for (const std::string& session : request.ended()) check.Text("ended", session, 1, kMaxIdBytes);
   for (const std::string& tag : request.tag()) check.Text("tag", tag, 1, kMaxIdBytes);
   for (const v1::JoinRequest::Holding& holding : request.holding()) {
     check.Attempt(holding.attempt())

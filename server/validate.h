@@ -19,6 +19,7 @@ inline constexpr size_t kMaxNameBytes = 200;
 inline constexpr size_t kMaxErrorBytes = 10'000;
 inline constexpr int kMaxHoldings = 64;
 inline constexpr int kMaxTags = 32;
+inline constexpr int kMaxEnded = 16;  // earlier sessions of a worker
 inline constexpr uint32_t kMaxFrame = 1'000'000;
 
 // What people may be shown: UTF-8 without control characters is the messages' own promise; here

@@ -82,17 +82,20 @@ int main(int argc, char** argv) {
 
   if (config.id.empty()) config.id = fjord::worker::TakeWorkerId();
   config.program = "/proc/self/exe";
+  config.session = fjord::worker::NewSessionName();
+  const auto note = fjord::worker::SessionNote::Take(config.id, config.server, config.session);
+  if (note != nullptr) config.ended = note->ended();
   const std::unique_ptr<fjord::worker::Worker> worker = fjord::worker::Worker::Start(config);
   const timespec look{0, kLookMs * 1'000'000L};
   while (true) {
     if (sigtimedwait(&signals, nullptr, &look) > 0) {
       spdlog::info("stopping: what this worker holds is given back");
-      worker->Stop();
+      if (worker->Stop() && note != nullptr) note->Forget();
       return kDone;
     }
     const std::optional<fjord::Result<>> ended = worker->WaitFor(0);
     if (!ended) continue;
-    worker->Stop();
+    if (worker->Stop() && note != nullptr) note->Forget();
     if (ended->ok()) return kDone;
     std::fprintf(stderr, "fjord-worker: %s\n", ended->error().ToString().c_str());
     return kFailed;

@@ -4,26 +4,18 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <functional>
-#include <random>
 #include <utility>
 
 #include "engine/base/parallel.h"
 #include "proto/fjord/protocol.h"
+#include "worker/identity.h"
 
 namespace fjord::worker {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-
-std::string RandomName() {
-  std::random_device device;
-  char text[33];
-  std::snprintf(text, sizeof text, "%08x%08x%08x%08x", device(), device(), device(), device());
-  return text;
-}
 
 std::string HostName() {
   char name[256] = "unknown";
@@ -39,7 +31,10 @@ SessionConfig WithId(SessionConfig config) {
 }  // namespace
 
 Session::Session(SessionConfig config, LeaseClient& client, HeldLeases& held)
-    : config_(WithId(std::move(config))), name_(RandomName()), client_(client), held_(held) {}
+    : config_(WithId(std::move(config))),
+      name_(config_.session.empty() ? NewSessionName() : config_.session),
+      client_(client),
+      held_(held) {}
 
 Backoff Session::NewBackoff() const {
   return Backoff(kFirstPause, kLongestPause, std::hash<std::string>{}(name_));
@@ -97,7 +92,9 @@ std::optional<Session::Sent> Session::Judge(Rpc rpc, const grpc::Status& status,
     if (JoinUnlessJoinedSince(joins)) return std::nullopt;
     return Sent::kStopped;
   }
-  if (!stopping() && !std::exchange(trouble->said, true)) {
+  if (rpc == Rpc::kJoin && status.error_code() == grpc::StatusCode::ABORTED) {
+    if (!std::exchange(trouble->waits, true)) spdlog::info("waiting: {}", status.error_message());
+  } else if (!stopping() && !std::exchange(trouble->said, true)) {
     spdlog::warn("the coordinator at {} does not answer ({}); trying again", config_.server,
                  status.error_message());
   }
@@ -132,6 +129,7 @@ v1::JoinRequest Session::JoinRequestOfThisWorker() const {
   request.set_threads(
       static_cast<uint32_t>(config_.threads > 0 ? config_.threads : HardwareThreads()));
   for (const std::string& tag : config_.tags) request.add_tag(tag);
+  for (const std::string& session : config_.ended) request.add_ended(session);
   return request;
 }
 
@@ -167,6 +165,7 @@ bool Session::JoinUnlessJoinedSince(uint64_t seen_joins) {
   const std::lock_guard lock(join_mutex_);
   if (joins_ != seen_joins) return true;
   v1::JoinRequest request = JoinRequestOfThisWorker();
+  const Time first_asked = steady_clock::now();
   Time sent;
   v1::JoinResponse response;
   const Sent answer = Ask(
@@ -174,6 +173,8 @@ bool Session::JoinUnlessJoinedSince(uint64_t seen_joins) {
       [&] {
         AddHeld(&request);
         sent = steady_clock::now();
+        request.set_waited_ms(static_cast<uint32_t>(
+            std::chrono::duration_cast<milliseconds>(sent - first_asked).count()));
         return client_.Join(request);
       },
       &response);

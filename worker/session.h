@@ -32,6 +32,8 @@ struct SessionConfig {
   std::string worker_id;
   int threads = 0;  // of one frame; 0: one a core
   std::vector<std::string> tags;
+  std::string session;             // empty: a random name
+  std::vector<std::string> ended;  // sessions of earlier processes of this worker, known to be over
 };
 
 class Session {
@@ -92,6 +94,7 @@ class Session {
   struct Trouble {
     Backoff backoff;
     bool said = false;
+    bool waits = false;  // for another session of this worker to be heard of, or gone
   };
 
   std::optional<Sent> Judge(Rpc rpc, const grpc::Status& status, uint64_t joins, Trouble* trouble);
@@ -103,7 +106,7 @@ class Session {
   size_t KeepAdopted(const v1::JoinRequest& request, const v1::JoinResponse& response, Time sent);
 
   const SessionConfig config_;
-  const std::string name_;  // random: a restarted worker is another session
+  const std::string name_;
   LeaseClient& client_;
   HeldLeases& held_;
   std::stop_source stop_;

@@ -55,7 +55,7 @@ class WorkerImpl : public Worker {
  public:
   explicit WorkerImpl(WorkerConfig config);
   ~WorkerImpl() override { Stop(); }
-  void Stop() override;
+  bool Stop() override;
   Result<> Wait() override { return session_.WaitForEnd(); }
   std::optional<Result<>> WaitFor(int length) override {
     return session_.WaitForEnd(milliseconds(length));
@@ -93,7 +93,9 @@ class WorkerImpl : public Worker {
                                                             blobs_->Shutdown();
                                                           }};
   std::mutex stop_mutex_;
-  std::optional<Loops> loops_;  // guarded by stop_mutex_; none: stopped
+  // guarded by stop_mutex_
+  std::optional<Loops> loops_;  // none: stopped
+  bool left_ = false;
 };
 
 WorkerImpl::WorkerImpl(WorkerConfig config)
@@ -104,20 +106,21 @@ WorkerImpl::WorkerImpl(WorkerConfig config)
       child_(config_.program.empty()
                  ? nullptr
                  : MakeChildRenderer(config_.program, config_.server, config_.threads)),
-      session_({config_.server, config_.id, config_.threads, config_.tags}, *leases_, held_) {
+      session_({config_.server, config_.id, config_.threads, config_.tags, config_.session,
+                config_.ended},
+               *leases_, held_) {
   loops_.emplace(*this);
 }
 
-void WorkerImpl::Stop() {
+bool WorkerImpl::Stop() {
   session_.End({});
   const std::lock_guard lock(stop_mutex_);
-  if (!loops_) return;
+  if (!loops_) return left_;
   loops_.reset();
-  if (session_.has_joined()) {
-    v1::LeaveRequest request;
-    request.set_session_id(session_.name());
-    leases_->Leave(request);
-  }
+  if (!session_.has_joined()) return left_ = true;
+  v1::LeaveRequest request;
+  request.set_session_id(session_.name());
+  return left_ = leases_->Leave(request).status.ok();
 }
 
 void WorkerImpl::RenderLoop(Delivery& delivery) {

@@ -27,7 +27,9 @@ struct WorkerConfig {
   std::string id;         // stable over restarts; empty: host name and a number
   std::string cache_dir;  // of scenes and assets; empty: none on disk
   uint64_t cache_bytes = uint64_t{1} << 30;
-  std::string program;  // for suspects' child processes; empty: rendered in this one
+  std::string session;             // this process's; empty: a random one
+  std::vector<std::string> ended;  // sessions of earlier processes, known to be over
+  std::string program;             // for suspects' child processes; empty: rendered in this one
 
   // For tests; null: gRPC and the engine.
   std::function<std::unique_ptr<LeaseClient>()> make_leases;
@@ -42,8 +44,9 @@ class Worker {
   // Stop.
   virtual ~Worker() = default;
 
-  // Gives everything back and leaves. Thread-safe.
-  virtual void Stop() = 0;
+  // Gives everything back and leaves. True: the coordinator knows of no session of this worker any
+  // more. Thread-safe.
+  virtual bool Stop() = 0;
   // Until it has ended by itself: drained (no error), or refused by the coordinator.
   virtual Result<> Wait() = 0;
   // The same with an end to the waiting; none: still at work.

@@ -38,6 +38,7 @@ Errors CheckShape(const std::string& path) {
   if (!bytes.ok()) return {bytes.error()};
   const Result<ShapeFile> shape = ReadShape(*bytes, path);
   if (!shape.ok()) return {shape.error()};
+  for (const std::string& note : shape->notes) console::Note(note);
   Errors errors;
   for (const MeshDefect& defect : CheckMesh(shape->mesh)) {
     Place place{path, 0, 0};

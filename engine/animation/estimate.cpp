@@ -10,7 +10,6 @@
 #include "engine/base/exact_math.h"
 #include "engine/base/fpenv.h"
 #include "engine/fractal/amount.h"
-#include "engine/fractal/midpoint_knobs.h"
 #include "engine/fractal/registry.h"
 
 namespace fjord {
@@ -124,8 +123,8 @@ class Estimator {
 
   // `split`: which edges are split, from corner k to the next. `flat`: leaves follow the edges'
   // length and not the area.
-  void Add(const Cell& whole, const std::array<bool, 3>& split, bool flat) {
-    if (even_ && !flat && AddHalves(whole, split)) return;
+  void Add(const Cell& whole, const std::array<bool, 3>& split, bool flat, int halved = 0) {
+    if (even_ && !flat && AddHalves(whole, split, halved)) return;
     const bool fan = flat && !(whole.now[1] == whole.now[2]);  // triangles along a border
     std::array<double, 3> length{};
     double longest = 0;
@@ -178,9 +177,11 @@ class Estimator {
   }
 
   // Triangles that are cut along their median (shares.h) keep its length, where it is short, and
-  // not their shape.
-  bool AddHalves(const Cell& whole, const std::array<bool, 3>& split) {
+  // not their shape. One without an area could be halved for ever.
+  bool AddHalves(const Cell& whole, const std::array<bool, 3>& split, int halved) {
     constexpr double kShort = .25;
+    constexpr int kDeepest = 8;
+    if (halved == kDeepest || cells_ >= kMostCells) return false;
     const auto& corners = law_.current() ? whole.now : whole.rest;
     size_t k = 0;  // the longest side's first corner
     const auto side = [&](size_t i) { return Length(corners[(i + 1) % 3] - corners[i]); };
@@ -196,7 +197,7 @@ class Estimator {
       half.now[end] = (whole.now[k] + whole.now[next]) * .5;
       std::array<bool, 3> halves = split;
       halves[end == next ? next : across] = true;  // the median
-      Add(half, halves, false);
+      Add(half, halves, false, halved + 1);
     }
     return true;
   }
@@ -268,13 +269,13 @@ Result<ObjectEstimate> EstimateObject(const v1::FrameScene& frame, const AssetRe
   if (object.has_fractal()) {
     const Result<MethodSettings> known = MethodSettingsOf(object.fractal());
     if (!known) return known.error();
-    // What moves vertices is known of midpoint displacement; others are taken to keep their size.
-    if (std::any_cast<FractalSettings>(&known->own) != nullptr) {
-      settings = JoinMidpoint(*known, known->own);
+    const MethodInfo& method = *FindFractalMethod(known->method);
+    if (method.midpoint != nullptr) {
+      settings = method.midpoint(*known, known->own);
     } else {
       static_cast<FractalCommon&>(settings) = *known;
     }
-    borders_only = FindFractalMethod(settings.method)->borders_only;
+    borders_only = method.borders_only;
   }
   Estimator estimator(frame, object, settings, coarser);
   const size_t points = shape->now.size();

@@ -38,6 +38,15 @@ struct HeightsPose {
   SharedAsset samples_asset;
 };
 
+// Points or colours as three numbers each.
+template <typename List>
+void AppendTriples(const List& list, google::protobuf::RepeatedField<double>* values) {
+  values->Reserve(values->size() + static_cast<int>(3 * list.size()));
+  for (const auto& item : list) {
+    for (int i = 0; i < 3; ++i) values->AddAlreadyReserved(item[i]);
+  }
+}
+
 // The asset of a list that is long, else null.
 SharedAsset AssetOf(std::span<const Vec3> points);
 SharedAsset AssetOf(std::span<const Rgb> colors);

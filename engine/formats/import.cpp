@@ -1,16 +1,17 @@
 #include "engine/formats/import.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
-#include "engine/base/clamp.h"
 #include "engine/base/exact_math.h"
+#include "engine/formats/import_form.h"
 #include "engine/formats/text.h"
 #include "engine/geometry/check_mesh.h"
-#include "engine/geometry/edges.h"
 
 namespace fjord {
+
+using namespace import;  // NOLINT(google-build-using-namespace): this folder's own part
+
 namespace {
 
 constexpr size_t kMostNotes = 5;
@@ -23,19 +24,6 @@ constexpr double kMargin = 1.1;
 // degrees).
 constexpr double kBallDistance = 3.33;
 
-struct Box {
-  Vec3 low{0}, high{0};
-  bool empty = true;
-
-  void Add(const Vec3& p) {
-    for (int k = 0; k < 3; ++k) {
-      low[k] = empty ? p[k] : std::min(low[k], p[k]);
-      high[k] = empty ? p[k] : std::max(high[k], p[k]);
-    }
-    empty = false;
-  }
-};
-
 std::string Text(double value) {
   std::string text;
   text::Append(value + 0, &text);
@@ -44,13 +32,6 @@ std::string Text(double value) {
 
 std::string Xyz(const Vec3& v) {
   return "{ x: " + Text(v.x) + " y: " + Text(v.y) + " z: " + Text(v.z) + " }";
-}
-
-// Enough digits for a camera; whole pictures do not hang on the last bit of where it stands.
-double Rounded(double value, double unit) {
-  const double scaled = value * (1000 / unit);
-  const bool exact = scaled > -1e15 && scaled < 1e15;  // else rounding would change it too much
-  return exact ? static_cast<double>(RoundToInt64(scaled)) / (1000 / unit) : value;
 }
 
 std::string ProtoString(const std::string& text) {
@@ -75,80 +56,6 @@ std::string NameOf(const std::string& path) {
   }
   const bool digits = name.find_first_not_of("0123456789") == name.npos;
   return digits ? "shape" + name : name;  // a name is no number
-}
-
-enum class Form { kCurve, kOutline, kFlatMesh, kRelief, kClosedMesh };
-
-// What becomes an object: the file's faces, or one of its curves.
-struct Piece {
-  Form form = Form::kCurve;
-  bool closed = false;
-  size_t curve = 0;  // from 1; 0: all that the file holds
-};
-
-struct Judged {
-  Form form = Form::kRelief;  // of the faces, else of the first curve
-  bool closed = false;        // of a curve
-  bool level_border = false;  // of a relief: all boundary vertices lie at the lowest height
-  Box box;
-  double longest =
-      0;  // edge of the curves, or of a flat mesh; how far the fractal strays goes by it
-};
-
-Judged Judge(const ShapeFile& shape) {
-  Judged judged;
-  const Mesh& mesh = shape.mesh;
-  for (const Polyline& curve : shape.curves) {
-    for (size_t k = 0; k < curve.points.size(); ++k) {
-      judged.box.Add(curve.points[k]);
-      if (k == 0 && !curve.closed) continue;
-      const Vec3& before = k > 0 ? curve.points[k - 1] : curve.points.back();
-      judged.longest = std::max(judged.longest, Length(curve.points[k] - before));
-    }
-  }
-  if (mesh.face_size.empty()) {
-    judged.form = Form::kCurve;
-    judged.closed = shape.curves[0].closed;
-    return judged;
-  }
-  for (const uint32_t v : mesh.face_vertex) judged.box.Add(mesh.points[v]);
-  if (mesh.FaceCount() == 1 && mesh.face_size[0] > 4) {
-    judged.form = Form::kOutline;
-    judged.closed = true;
-    for (size_t k = 0; k < mesh.face_vertex.size(); ++k) {
-      const uint32_t before = mesh.face_vertex[k > 0 ? k - 1 : mesh.face_vertex.size() - 1];
-      judged.longest =
-          std::max(judged.longest, Length(mesh.points[mesh.face_vertex[k]] - mesh.points[before]));
-    }
-    return judged;
-  }
-  const EdgeTable table(mesh);
-  bool open = false;
-  judged.level_border = true;
-  for (const Edge& edge : table.edges()) {
-    if (edge.use_count != 1) continue;
-    judged.longest = std::max(judged.longest, Length(mesh.points[edge.a] - mesh.points[edge.b]));
-    open = true;
-    judged.level_border = judged.level_border && mesh.points[edge.a].z == judged.box.low.z &&
-                          mesh.points[edge.b].z == judged.box.low.z;
-  }
-  if (!open) {
-    judged.form = Form::kClosedMesh;
-  } else {
-    judged.form = judged.box.low.z == judged.box.high.z ? Form::kFlatMesh : Form::kRelief;
-  }
-  return judged;
-}
-
-std::vector<Piece> PiecesOf(const ShapeFile& shape, const Judged& judged) {
-  std::vector<Piece> pieces;
-  const bool faces = !shape.mesh.face_size.empty();
-  if (faces || shape.curves.size() == 1) pieces.push_back({judged.form, judged.closed, 0});
-  if (!faces && shape.curves.size() == 1) return pieces;
-  for (size_t k = 0; k < shape.curves.size(); ++k) {
-    pieces.push_back({Form::kCurve, shape.curves[k].closed, k + 1});
-  }
-  return pieces;
 }
 
 std::string FormText(const ShapeFile& shape, const Judged& judged) {
@@ -198,8 +105,8 @@ std::string Knobs(const ParFile& par) {
 }
 
 std::string Camera(const Judged& judged) {
-  const Vec3 size = judged.box.high - judged.box.low;
-  const double extent = std::max({size.x, size.y, size.z});
+  const Vec3 size = judged.box.Size();
+  const double extent = judged.box.Extent();
   Vec3 center = (judged.box.low + judged.box.high) * .5;
   for (int k = 0; k < 3; ++k) center[k] = Rounded(center[k], extent);
   const auto at = [&](const Vec3& offset) {
@@ -250,35 +157,50 @@ const char* MethodOf(Form form) {
 // large.
 std::string Amplitude(const Judged& judged, const ParFile* par) {
   if (par != nullptr && (par->fixvl || par->sigma)) return "";  // its own numbers say how much
-  const Vec3 size = judged.box.high - judged.box.low;
-  const double extent = std::max({size.x, size.y, size.z});
+  const double extent = judged.box.Extent();
   const double H = par != nullptr && par->H ? *par->H : kH;
   const double amplitude = kAmplitude * exact::Pow(extent / kAmplitudeExtent, 1 - H);
   if (amplitude == kAmplitude) return "";
   return "    amplitude: " + Text(std::min(amplitude, 1e6)) + "  # by the size of the shape\n";
 }
 
+// What every object of the scene has in common.
+struct Common {
+  const Judged& judged;
+  const std::string& shape_path;
+  const ParFile* par;
+  const ImportOptions& options;
+  bool has_faces;
+  bool has_colors;
+};
+
+const char* WordOf(UpAxis up) { return up == UpAxis::kY ? "Y" : up == UpAxis::kX ? "X" : "Z"; }
+
 std::string ObjectText(const Piece& piece, size_t number, const std::string& name,
-                       const std::string& shape_path, const Judged& judged, const ParFile* par,
-                       bool colors) {
+                       const Common& common) {
+  const ParFile* par = common.par;
   std::string out = "objects {\n  name: " + ProtoString(name) +
-                    "\n  shape { file { path: " + ProtoString(shape_path);
+                    "\n  shape { file { path: " + ProtoString(common.shape_path);
+  if (common.options.up != UpAxis::kZ) out += std::string(" up: ") + WordOf(common.options.up);
   if (piece.form == Form::kOutline) out += " outline: true";
   if (piece.curve > 0) out += " curve: " + std::to_string(piece.curve);
+  const double spacing =
+      common.options.spacing.value_or(par == nullptr ? common.judged.spacing : 0);
+  if (spacing > 0 && (piece.curve == 0 || !common.has_faces)) out += " spacing: " + Text(spacing);
   out += std::string(" } }\n  fractal {\n    method: \"") + MethodOf(piece.form) + "\"\n";
   if (par != nullptr) out += Knobs(*par);
   if (number > 0 && (par == nullptr || !par->seed)) {
     out += "    seed: " + std::to_string(number + 1) + "  # no two alike\n";
   }
   const bool relief = piece.form == Form::kRelief;
-  if (relief || piece.form == Form::kClosedMesh) out += Amplitude(judged, par);
-  if (relief && judged.level_border) {
+  if (relief || piece.form == Form::kClosedMesh) out += Amplitude(common.judged, par);
+  if (relief && common.judged.level_border) {
     out += "    coast: true  # the border is level, so it stays a shore\n";
   }
   out += "  }\n";
   if (piece.closed) {
     out += "  material { color { r: 0.1 g: 0.2 b: 0.05 } fill: true }\n";
-  } else if (colors && piece.curve == 0) {
+  } else if (common.has_colors && piece.curve == 0) {
     out += "  material { vertex_color: true }  # the file's own colours\n";
   }
   return out + "}\n";
@@ -286,8 +208,18 @@ std::string ObjectText(const Piece& piece, size_t number, const std::string& nam
 
 }  // namespace
 
-Result<std::string> SceneTextFromShape(const ShapeFile& shape, const std::string& shape_path,
-                                       const ParFile* par, const std::string& par_path) {
+bool LooksTurned(const ShapeFile& shape) {
+  if (shape.mesh.face_size.empty() && shape.curves.empty()) return false;
+  const Vec3 size = Judge(shape).box.Size();
+  return size.y < .5 * std::min(size.x, size.z);
+}
+
+Result<std::string> SceneTextFromShape(const ShapeFile& file, const std::string& shape_path,
+                                       const ParFile* par, const std::string& par_path,
+                                       const ImportOptions& options) {
+  ShapeFile shape = file;
+  TurnUp(options.up, &shape.mesh.points);
+  for (Polyline& curve : shape.curves) TurnUp(options.up, &curve.points);
   if (shape.mesh.face_size.empty() && shape.curves.empty()) {
     return Invalid("the shape has no faces and no curves", {shape_path, 0, 0});
   }
@@ -298,8 +230,7 @@ Result<std::string> SceneTextFromShape(const ShapeFile& shape, const std::string
     }
   }
   const Judged judged = Judge(shape);
-  const Vec3 size = judged.box.high - judged.box.low;
-  if (!(std::max({size.x, size.y, size.z}) > 0)) {
+  if (!(judged.box.Extent() > 0)) {
     return Invalid("all points of the shape are at one place; there is nothing to see",
                    {shape_path, 0, 0});
   }
@@ -320,6 +251,7 @@ Result<std::string> SceneTextFromShape(const ShapeFile& shape, const std::string
     out +=
         "# Fractal knobs from " + text::OneLine(par_path) + "; all others are the method's own.\n";
   }
+  for (const std::string& note : shape.notes) out += "# " + text::OneLine(note) + "\n";
   if (!shape.mesh.face_size.empty()) {
     const std::vector<MeshDefect> defects = CheckMesh(shape.mesh, kMostNotes);
     for (const MeshDefect& defect : defects) {
@@ -331,10 +263,11 @@ Result<std::string> SceneTextFromShape(const ShapeFile& shape, const std::string
   if (judged.form == Form::kRelief && judged.level_border) {
     out += "sea { level: " + Text(judged.box.low.z) + " }  # the height of the shape's border\n";
   }
+  const Common common = {
+      judged, shape_path, par, options, !shape.mesh.face_size.empty(), !shape.mesh.colors.empty()};
   const std::vector<Piece> pieces = PiecesOf(shape, judged);
   for (size_t k = 0; k < pieces.size(); ++k) {
-    out += ObjectText(pieces[k], k, k == 0 ? name : name + "_" + std::to_string(k + 1), shape_path,
-                      judged, par, !shape.mesh.colors.empty());
+    out += ObjectText(pieces[k], k, k == 0 ? name : name + "_" + std::to_string(k + 1), common);
   }
   return out;
 }

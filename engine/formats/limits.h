@@ -13,7 +13,10 @@ inline constexpr size_t kCurves = 4'000'000;
 inline constexpr size_t kLineBytes = 16u << 20;  // a face or path of a million corners on one line
 inline constexpr size_t kHeaderLineBytes = 64u << 10;  // .ply header, .par
 inline constexpr size_t kParBytes = 1u << 20;
-inline constexpr size_t kDepth = 64;  // elements of a .svg within each other
+inline constexpr size_t kDepth = 64;  // elements of a .svg within each other, also by `use`
+inline constexpr size_t kXmlItems = 16'000'000;  // elements and attributes of a .svg
+inline constexpr size_t kUsed = 1'000'000;       // elements of a .svg that `use` draws again
+inline constexpr size_t kStyleRules = 1000;      // of a .svg, that move or hide something
 // Anything larger cannot be meant: squares of it still fit a double with room to spare.
 inline constexpr double kCoordinate = 1e15;
 

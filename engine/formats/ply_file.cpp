@@ -221,6 +221,14 @@ class PlyReader {
 
 }  // namespace
 
+// A first line `ply`, after which blanks may stand.
+bool LooksLikePly(std::string_view bytes) {
+  if (bytes.substr(0, 3) == "\xEF\xBB\xBF") bytes.remove_prefix(3);
+  if (bytes.substr(0, 3) != "ply") return false;
+  const size_t end = bytes.find_first_not_of(" \t", 3);
+  return end != bytes.npos && (bytes[end] == '\n' || bytes[end] == '\r');
+}
+
 Result<ShapeFile> ReadPly(std::string_view bytes, const std::string& name) {
   auto header = ReadPlyHeader(bytes, name);
   if (!header) return header.error();

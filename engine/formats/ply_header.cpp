@@ -1,5 +1,6 @@
 #include "engine/formats/ply_header.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -41,11 +42,18 @@ bool IsInteger(PlyType type) { return type < PlyType::kFloat; }
 
 class HeaderReader {
  public:
-  HeaderReader(std::string_view bytes, const std::string& name) : lines_(bytes), name_(name) {}
+  HeaderReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {
+    if (bytes_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
+    // Lines end as the first one does: a body may begin with any byte, line ends too.
+    const size_t end = bytes_.find_first_of("\r\n", at_);
+    const std::string_view two = bytes_.substr(std::min(end, bytes_.size()), 2);
+    line_end_ = two == "\r\n" || two.substr(0, 1) == "\n" ? '\n' : '\r';
+    reversed_ = two == "\n\r";
+  }
 
   Result<PlyHeader> Read() {
-    lines_.Next(&line_);  // "ply"
-    while (lines_.Next(&line_)) {
+    Next();  // "ply"
+    while (Next()) {
       if (line_.text.size() > limits::kHeaderLineBytes) {
         return MakeError(ErrorCode::kLimit, "a header line longer than 64 KiB", At(1));
       }
@@ -56,11 +64,20 @@ class HeaderReader {
       if (word_[0].text == "end_header") return End();
       if (auto ok = ReadLine(); !ok) return ok.error();
     }
-    return Invalid("the header has no end_header; the file is cut short",
-                   {name_, lines_.line_number(), 0});
+    return Invalid("the header has no end_header; the file is cut short", {name_, line_.number, 0});
   }
 
  private:
+  bool Next() {
+    if (at_ >= bytes_.size()) return false;
+    const size_t end = std::min(bytes_.find(line_end_, at_), bytes_.size());
+    line_ = {bytes_.substr(at_, end - at_), line_.number + 1};
+    if (line_.text.ends_with('\r')) line_.text.remove_suffix(1);
+    at_ = std::min(end + 1, bytes_.size());
+    if (reversed_ && at_ < bytes_.size() && bytes_[at_] == '\r') ++at_;
+    return true;
+  }
+
   Place At(int column) const { return {name_, line_.number, column}; }
   Error Fail(size_t word, std::string message) const {
     return Invalid(std::move(message), At(word < word_.size() ? word_[word].column : 1));
@@ -68,7 +85,7 @@ class HeaderReader {
 
   Result<PlyHeader> End() {
     if (!encoding_) return Fail(0, "the header has no line `format ... 1.0`");
-    header_.bytes = lines_.offset();
+    header_.bytes = at_;
     header_.lines = line_.number;
     return std::move(header_);
   }
@@ -142,7 +159,10 @@ class HeaderReader {
     return Ok{};
   }
 
-  text::LineReader lines_;
+  std::string_view bytes_;
+  char line_end_ = '\n';   // with a \r before it or not
+  bool reversed_ = false;  // \n\r
+  size_t at_ = 0;
   const std::string& name_;
   text::Line line_;
   std::vector<text::Word> word_;

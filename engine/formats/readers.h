@@ -19,6 +19,7 @@ std::string WriteStd(const ShapeFile& shape, const Comment& comment);
 Result<ShapeFile> ReadObj(std::string_view bytes, const std::string& name);
 std::string WriteObj(const ShapeFile& shape, const Comment& comment);
 
+bool LooksLikePly(std::string_view bytes);
 Result<ShapeFile> ReadPly(std::string_view bytes, const std::string& name);
 std::string WritePly(const ShapeFile& shape, const Comment& comment);
 

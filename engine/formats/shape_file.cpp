@@ -4,10 +4,12 @@
 #include <array>
 #include <utility>
 
+#include "engine/formats/known_file.h"
 #include "engine/formats/limits.h"
 #include "engine/formats/read_bytes.h"
 #include "engine/formats/readers.h"
 #include "engine/formats/text.h"
+#include "engine/formats/xml_document.h"
 
 namespace fjord {
 namespace {
@@ -30,7 +32,7 @@ std::string EndingOf(const std::string& path) {
   return ending;
 }
 
-enum class Kind { kUnknown, kStd, kWavefront, kAnimator };
+enum class TextKind { kUnknown, kStd, kWavefront, kAnimator };
 
 // Lines that only Animator's object file has (W48). They may stand in the free text of a .std file
 // too, so they decide only when nothing else does.
@@ -42,7 +44,7 @@ bool IsAnimatorLine(std::string_view word, std::string_view second) {
 }
 
 struct Guess {
-  Kind kind = Kind::kUnknown;
+  TextKind kind = TextKind::kUnknown;
   int animator_line = 0;
 };
 
@@ -55,19 +57,19 @@ Guess GuessText(std::string_view bytes) {
     text::Word word, second;
     if (!words.Next(&word)) continue;
     if (formats::IsStdDataLine(line.text)) {
-      guess.kind = Kind::kStd;
+      guess.kind = TextKind::kStd;
       return guess;
     }
     const bool has_second = words.Next(&second);
     if (word.text == "v" && has_second && text::LooksLikeNumber(second.text)) {
-      guess.kind = Kind::kWavefront;
+      guess.kind = TextKind::kWavefront;
       return guess;
     }
     if (guess.animator_line == 0 && has_second && IsAnimatorLine(word.text, second.text)) {
       guess.animator_line = line.number;
     }
   }
-  if (guess.animator_line > 0) guess.kind = Kind::kAnimator;
+  if (guess.animator_line > 0) guess.kind = TextKind::kAnimator;
   return guess;
 }
 
@@ -147,29 +149,33 @@ Result<ShapeFile> ReadShape(std::string_view bytes, const std::string& name) {
   if (bytes.size() > limits::kFileBytes) {
     return MakeError(ErrorCode::kLimit, "the file is larger than 1 GiB", file);
   }
-  if (bytes.substr(0, 4) == "ply\n" || bytes.substr(0, 4) == "ply\r") {
-    return formats::ReadPly(bytes, name);
-  }
+  if (formats::LooksLikePly(bytes)) return formats::ReadPly(bytes, name);
+  if (formats::LooksLikeWideXml(bytes)) return formats::ReadSvg(bytes, name);
   if (text::LooksBinary(bytes)) {
+    if (std::string why = WhyNotShape(bytes); !why.empty()) return Invalid(std::move(why), file);
     return Invalid("the file is binary; shapes are .std, .epf, Wavefront .obj, .ply or .svg", file);
   }
   const size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == bytes.npos) return Invalid("the file holds nothing but spaces", file);
-  if (bytes[first] == '<') return formats::ReadSvg(bytes, name);
+  if (bytes[first] == '<') {
+    std::string why = WhyNotShape(bytes);
+    return why.empty() ? formats::ReadSvg(bytes, name) : Invalid(std::move(why), file);
+  }
   const Guess guess = GuessText(bytes);
   switch (guess.kind) {
-    case Kind::kStd:
+    case TextKind::kStd:
       return formats::ReadStd(bytes, name);
-    case Kind::kWavefront:
+    case TextKind::kWavefront:
       return formats::ReadObj(bytes, name);
-    case Kind::kAnimator:
+    case TextKind::kAnimator:
       return Invalid(
           "this is an object file of Animator, not of Wavefront; Animator's are not read "
           "yet: give the shape as .std, Wavefront .obj or .ply",
           {name, guess.animator_line, 1});
-    case Kind::kUnknown:
+    case TextKind::kUnknown:
       break;
   }
+  if (std::string why = WhyNotShape(bytes); !why.empty()) return Invalid(std::move(why), file);
   const std::string ending = EndingOf(name);
   if (ending == ".std" || ending == ".epf") return formats::ReadStd(bytes, name);
   if (ending == ".obj") {

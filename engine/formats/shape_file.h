@@ -27,6 +27,8 @@ struct ShapeFile {
   // file, 255 for the shortest form, so that a file made by hand comes back as it was written. Not
   // needed for writing.
   std::vector<uint8_t> decimals;
+  // Lines for people, "a.svg:3:1: note: ...": what the file shows and the shape does not hold.
+  std::vector<std::string> notes;
 };
 
 enum class ShapeFormat { kStd, kEpf, kObj, kPly, kSvg };

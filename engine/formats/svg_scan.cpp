@@ -18,10 +18,14 @@ void SvgScan::SkipSpace() {
   }
 }
 
-std::string_view SvgScan::ReadWord() {
-  const size_t begin = at_;
-  while (!AtEnd() && ((Peek() >= 'a' && Peek() <= 'z') || (Peek() >= 'A' && Peek() <= 'Z'))) ++at_;
-  return text_.substr(begin, at_ - begin);
+std::string SvgScan::ReadWord() {
+  std::string word;
+  for (; !AtEnd(); ++at_) {
+    const char c = Peek();
+    if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'))) break;
+    word += c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return word;
 }
 
 bool SvgScan::AtNumber() {
@@ -55,6 +59,18 @@ bool SvgScan::ReadNumber(double* value) {
     return false;
   }
   at_ = end;
+  return true;
+}
+
+bool SvgScan::ReadFlag(bool* value) {
+  SkipSpace();
+  const char c = Peek();
+  if (c != '0' && c != '1') {
+    fault_ = Fault("a flag of an arc is 0 or 1");
+    return false;
+  }
+  *value = c == '1';
+  ++at_;
   return true;
 }
 

@@ -186,6 +186,9 @@ struct MethodInfo : EntryInfo {
                                                       const std::any& own) = nullptr;
   // Splits the borders of a mesh alone: what it makes follows their length and not the area.
   bool borders_only = false;
+  // What moves vertices, of methods that displace midpoints, so that the cost of a scene can be
+  // estimated. Null: a shape is taken to keep its size.
+  FractalSettings (*midpoint)(const FractalCommon& common, const std::any& own) = nullptr;
 };
 
 }  // namespace fjord

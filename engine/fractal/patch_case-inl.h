@@ -18,25 +18,24 @@ namespace HWY_NAMESPACE {
 
 constexpr size_t kLanes = hn::MaxLanes(DF());
 
-// N triangles of one case on their way to children.// N triangles of one case, and what their edges
-// say: which is the longest, what is shared.
+// N triangles of one case, and what their edges say: which is the longest, what is shared.
 class TriangleLanes {
  protected:
   TriangleLanes(const SurfaceRules& rules, Patch& patch)
       : rules_(rules),
         patch_(patch),
-        edge_length2_(patch.edge_length2.data()),
-        midpoints_(hn::Set(DN(), static_cast<uint32_t>(patch.midpoints))) {}
+        edge_length2_(patch.edges.length2.data()),
+        midpoints_(hn::Set(DN(), static_cast<uint32_t>(patch.long_edges.midpoints))) {}
 
   // Shares on the left and on the right of a new edge.
   struct Shares {
     VU left, right;
   };
 
-  void Load(const CaseList& list, size_t i, int long_edges) {
+  HWY_INLINE void Load(const CaseList& list, size_t i, int long_edges) {
     const DN dn;
     lanes_ = list.count - i < kLanes ? list.count - i : kLanes;
-    const hn::Mask<DN> valid = hn::FirstN(dn, lanes_);
+    const hn::Mask<DN> valid = FirstLanes(dn, lanes_);
     for (int k = 0; k < 3; ++k) {
       v_[k] = hn::IfThenElseZero(valid, hn::LoadU(dn, &list.corner[k][i]));
       e_[k] = hn::IfThenElseZero(valid, hn::LoadU(dn, &list.edge[k][i]));
@@ -52,9 +51,13 @@ class TriangleLanes {
   }
 
   static hn::Mask<DN> Narrow(MF mask) {
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+    return hn::Mask<DN>{mask.raw};
+#else
     const DU du;
     const VU bits = hn::BitCast(du, hn::VecFromMask(DF(), mask));
     return hn::Ne(hn::TruncateTo(DN(), bits), hn::Zero(DN()));
+#endif
   }
 
   static VN Back(VN edge) { return hn::Xor(edge, hn::Set(DN(), Patch::kFlip)); }
@@ -69,9 +72,8 @@ class TriangleLanes {
 
   // The share of the triangles as their edge k knows it.
   VU Inside(int k) const {
-    const hn::Mask<DU> flipped = hn::Ne(hn::PromoteTo(DU(), flip_[k]), hn::Zero(DU()));
-    return hn::IfThenElse(flipped, Gather(patch_.edge_right.data(), index_[k]),
-                          Gather(patch_.edge_left.data(), index_[k]));
+    return Gather(patch_.edges.shares.data(),
+                  hn::Or(hn::ShiftLeft<1>(e_[k]), hn::ShiftRight<31>(e_[k])));
   }
 
   // What a triangle's new edges need to know of it.
@@ -141,11 +143,11 @@ class TriangleLanes {
 
   // Which of edges 0 and 1 is the longest, if not edge 2; where the right template is the
   // triangle's.
-  MF Longest(MF& is_longest0, MF& is_longest1) const {
+  HWY_INLINE MF Longest(MF& is_longest0, MF& is_longest1) const {
     const DF d;
     VF size2[3];
     for (int k = 0; k < 3; ++k) {
-      size2[k] = rules_.current() ? Gather(patch_.edge_current2.data(), index_[k]) : length_[k];
+      size2[k] = rules_.current() ? Gather(patch_.edges.current2.data(), index_[k]) : length_[k];
     }
     const VF most = Larger(size2[0], Larger(size2[1], size2[2]));
     const MF is0 = hn::Eq(size2[0], most), is1 = hn::Eq(size2[1], most),
@@ -161,17 +163,20 @@ class TriangleLanes {
   }
 
   // Turns the triangles so that edge 2 is the longest; where the right template is theirs.
-  MF TurnLongestLast() {
+  HWY_INLINE MF TurnLongestLast() {
     MF turn1, turn2;
     const MF right = Longest(turn1, turn2);
+    if (hn::AllFalse(DF(), hn::Or(turn1, turn2))) return right;
     const hn::Mask<DN> by1 = Narrow(turn1), by2 = Narrow(turn2);
     Turn(by1, by2, v_);
     Turn(by1, by2, e_);
-    Turn(by1, by2, flip_);
-    Turn(by1, by2, index_);
     Turn(by1, by2, slot_);
-    Turn(by1, by2, m_);
     Turn(turn1, turn2, length_);
+    for (int k = 0; k < 3; ++k) {
+      flip_[k] = hn::And(e_[k], hn::Set(DN(), Patch::kFlip));
+      index_[k] = hn::AndNot(flip_[k], e_[k]);
+      m_[k] = slot_[k] + midpoints_;
+    }
     return right;
   }
 
@@ -185,7 +190,7 @@ class TriangleLanes {
   }
 
   // Of longest edges the one with the smallest sum of its ends' identities.
-  void LongestOfTied(MF is0, MF is1, MF is2, MF& turn1, MF& turn2) const {
+  HWY_NOINLINE void LongestOfTied(MF is0, MF is1, MF is2, MF& turn1, MF& turn2) const {
     const DF d;
     const DU du;
     HWY_ALIGN uint32_t corner[3][kLanes];
@@ -200,8 +205,8 @@ class TriangleLanes {
       uint64_t least = 0;
       for (int k = 0; k < 3; ++k) {
         if (longest[k][i] == 0) continue;
-        const uint64_t sum =
-            patch_.vertex[corner[k][i]].id + patch_.vertex[corner[(k + 1) % 3][i]].id;
+        const uint64_t sum = patch_.vertices.value[corner[k][i]].id +
+                             patch_.vertices.value[corner[(k + 1) % 3][i]].id;
         if (best < 0 || sum < least) {
           best = k;
           least = sum;
@@ -217,8 +222,8 @@ class TriangleLanes {
   MF FirstLonger() const {
     const DF d;
     const bool current = rules_.current();
-    const VF a = current ? Gather(patch_.edge_current2.data(), index_[0]) : length_[0];
-    const VF b = current ? Gather(patch_.edge_current2.data(), index_[1]) : length_[1];
+    const VF a = current ? Gather(patch_.edges.current2.data(), index_[0]) : length_[0];
+    const VF b = current ? Gather(patch_.edges.current2.data(), index_[1]) : length_[1];
     const MF longer = hn::Gt(a, b);
     const MF equal = hn::Eq(a, b);
     if (hn::AllFalse(d, equal)) return longer;
@@ -226,9 +231,9 @@ class TriangleLanes {
     HWY_ALIGN uint64_t smaller[kLanes];
     for (int k = 0; k < 3; ++k) hn::Store(v_[k], DN(), corner[k]);
     for (size_t i = 0; i < kLanes; ++i) {
-      const uint64_t middle = patch_.vertex[corner[1][i]].id;
-      const uint64_t first = patch_.vertex[corner[0][i]].id + middle;
-      const uint64_t second = middle + patch_.vertex[corner[2][i]].id;
+      const uint64_t middle = patch_.vertices.value[corner[1][i]].id;
+      const uint64_t first = patch_.vertices.value[corner[0][i]].id + middle;
+      const uint64_t second = middle + patch_.vertices.value[corner[2][i]].id;
       smaller[i] = first < second ? ~uint64_t{0} : 0;
     }
     const MF sums = hn::MaskFromVec(hn::BitCast(d, hn::Load(DU(), smaller)));

@@ -19,18 +19,18 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 void CollectLongEdgesLanes(Patch& patch, bool keep_numbers) {
-  const double* length2 = patch.edge_length2.data();
-  const uint32_t* edge_a = patch.edge_a.data();
-  const uint32_t* edge_b = patch.edge_b.data();
-  uint32_t* slot = patch.edge_slot.data();
-  uint32_t* list = patch.long_edge.data();
-  uint32_t* list_a = patch.long_a.data();
-  uint32_t* list_b = patch.long_b.data();
-  double* list_length2 = patch.long_length2.data();
+  const double* length2 = patch.edges.length2.data();
+  const uint32_t* edge_a = patch.edges.a.data();
+  const uint32_t* edge_b = patch.edges.b.data();
+  uint32_t* slot = patch.edges.slot.data();
+  uint32_t* list = patch.long_edges.number.data();
+  uint32_t* list_a = patch.long_edges.a.data();
+  uint32_t* list_b = patch.long_edges.b.data();
+  double* list_length2 = patch.long_edges.length2.data();
   uint32_t n = 0;
-  for (size_t i = patch.run_begin; i < patch.edge_count; ++i) {
+  for (size_t i = patch.edges.run_begin; i < patch.edges.count; ++i) {
     if (PatchIsShort(length2[i])) {
-      slot[i] = Patch::kShort;
+      slot[i] = PatchEdges::kShort;
       continue;
     }
     slot[i] = n;
@@ -40,7 +40,7 @@ void CollectLongEdgesLanes(Patch& patch, bool keep_numbers) {
     if (keep_numbers) list[n] = static_cast<uint32_t>(i);
     ++n;
   }
-  patch.long_count = n;
+  patch.long_edges.count = n;
 }
 #else
 // The lanes that are long of edges i..: the sign is in a double's upper word.
@@ -55,17 +55,17 @@ HWY_INLINE M32 LongLanes(const double* length2) {
 
 void CollectLongEdgesLanes(Patch& patch, bool keep_numbers) {
   const D32 d;
-  const size_t begin = patch.run_begin, end = patch.edge_count;
-  double* length2 = patch.edge_length2.data();
-  const uint32_t* edge_a = patch.edge_a.data();
-  const uint32_t* edge_b = patch.edge_b.data();
-  uint32_t* slot = patch.edge_slot.data();
-  uint32_t* list = patch.long_edge.data();
-  uint32_t* list_a = patch.long_a.data();
-  uint32_t* list_b = patch.long_b.data();
-  double* list_length2 = patch.long_length2.data();
+  const size_t begin = patch.edges.run_begin, end = patch.edges.count;
+  double* length2 = patch.edges.length2.data();
+  const uint32_t* edge_a = patch.edges.a.data();
+  const uint32_t* edge_b = patch.edges.b.data();
+  uint32_t* slot = patch.edges.slot.data();
+  uint32_t* list = patch.long_edges.number.data();
+  uint32_t* list_a = patch.long_edges.a.data();
+  uint32_t* list_b = patch.long_edges.b.data();
+  double* list_length2 = patch.long_edges.length2.data();
   for (size_t i = 0; i < kLanes32; ++i) length2[end + i] = -1;
-  const V32 none = hn::Set(d, Patch::kShort);
+  const V32 none = hn::Set(d, PatchEdges::kShort);
   size_t n = 0;
   for (size_t i = begin; i < end; i += kLanes32) {
     const M32 is_long = LongLanes(length2 + i);
@@ -75,7 +75,7 @@ void CollectLongEdgesLanes(Patch& patch, bool keep_numbers) {
     hn::StoreU(front(hn::LoadU(d, edge_a + i)), d, list_a + n);
     hn::StoreU(front(hn::LoadU(d, edge_b + i)), d, list_b + n);
     if (keep_numbers) {
-      hn::StoreU(front(hn::Iota(d, static_cast<uint32_t>(i))), d, list + n);
+      hn::StoreU(front(Counting(d, i)), d, list + n);
     }
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
     const __mmask16 bits = is_long.raw;
@@ -98,15 +98,16 @@ void CollectLongEdgesLanes(Patch& patch, bool keep_numbers) {
   hn::StoreU(hn::Zero(d), d, list_b + n);
   if (keep_numbers) hn::StoreU(hn::Zero(d), d, list + n);
   hn::StoreU(hn::Set(DF(), 1.0), DF(), list_length2 + n);
-  patch.long_count = n;
+  patch.long_edges.count = n;
 }
 #endif
 
 void InterleaveLeavesLanes(Patch& patch) {
   const D32 d;
-  for (size_t i = 0; i < patch.leaf_count; i += kLanes32) {
-    hn::StoreInterleaved3(hn::LoadU(d, &patch.leaf[0][i]), hn::LoadU(d, &patch.leaf[1][i]),
-                          hn::LoadU(d, &patch.leaf[2][i]), d, patch.leaf_triangles[i].data());
+  for (size_t i = 0; i < patch.leaves.count; i += kLanes32) {
+    hn::StoreInterleaved3(
+        hn::LoadU(d, &patch.leaves.corner[0][i]), hn::LoadU(d, &patch.leaves.corner[1][i]),
+        hn::LoadU(d, &patch.leaves.corner[2][i]), d, patch.leaves.packed[i].data());
   }
 }
 

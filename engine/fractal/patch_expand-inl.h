@@ -32,21 +32,21 @@ class Expander : private TriangleLanes {
  public:
   Expander(const SurfaceRules& rules, Patch& patch)
       : TriangleLanes(rules, patch),
-        edge_a_(patch.edge_a.data()),
-        edge_b_(patch.edge_b.data()),
-        length2_(patch.edge_length2.data()),
-        edges_(patch.edge_count),
+        edge_a_(patch.edges.a.data()),
+        edge_b_(patch.edges.b.data()),
+        length2_(patch.edges.length2.data()),
+        edges_(patch.edges.count),
         triangles_(patch.next.count) {
     for (int k = 0; k < 3; ++k) {
       corner_[k] = patch.next.corner[k].data();
       edge_[k] = patch.next.edge[k].data();
     }
-    along_ = hn::Set(DN(), static_cast<uint32_t>(patch.halves[0]));
-    against_ = hn::Set(DN(), static_cast<uint32_t>(patch.halves[1]));
+    along_ = hn::Set(DN(), static_cast<uint32_t>(patch.long_edges.halves[0]));
+    against_ = hn::Set(DN(), static_cast<uint32_t>(patch.long_edges.halves[1]));
   }
   // What was appended.
   void Finish() {
-    patch_.edge_count = edges_;
+    patch_.edges.count = edges_;
     patch_.next.count = triangles_;
   }
 
@@ -122,12 +122,14 @@ class Expander : private TriangleLanes {
       if (TakeLong()) StoreThree(hn::RebindMask(DU(), right), inner, p1, p2);
       const VN first1 = First(1);
       AddTriangle(v_[0], m_[0], m_[2], First(0), Back(p2), Second(2));
-      AddTriangle(m_[0], v_[1], hn::IfThenElse(narrow, m_[2], m_[1]), Second(0),
-                  hn::IfThenElse(narrow, Back(inner), first1),
-                  hn::IfThenElse(narrow, p2, Back(inner)));
+      // The longest edge last here too, so that few have to be turned at the next level.
+      const VN second0 = Second(0);
+      AddTriangle(hn::IfThenElse(narrow, m_[2], m_[0]), hn::IfThenElse(narrow, m_[0], v_[1]),
+                  hn::IfThenElse(narrow, v_[1], m_[1]), hn::IfThenElse(narrow, p2, second0),
+                  hn::IfThenElse(narrow, second0, first1), Back(inner));
       AddTriangle(m_[2], m_[1], v_[2], Back(p1), Second(1), First(2));
-      AddTriangle(from, to, hn::IfThenElse(narrow, m_[1], m_[2]), inner,
-                  hn::IfThenElse(narrow, first1, p1), hn::IfThenElse(narrow, p1, p2));
+      AddTriangle(to, hn::IfThenElse(narrow, m_[1], m_[2]), from,
+                  hn::IfThenElse(narrow, first1, p1), hn::IfThenElse(narrow, p1, p2), inner);
     }
   }
 
@@ -160,8 +162,7 @@ class Expander : private TriangleLanes {
   }
   void StoreShares(VN edges, const Shares& shares) {
     const size_t at = hn::GetLane(edges);
-    hn::StoreU(shares.left, DU(), &patch_.edge_left[at]);
-    hn::StoreU(shares.right, DU(), &patch_.edge_right[at]);
+    hn::StoreInterleaved2(shares.left, shares.right, DU(), &patch_.edges.shares[2 * at]);
   }
 
   // Of the inner edges of a triangle with three long ones.
@@ -187,7 +188,7 @@ class Expander : private TriangleLanes {
     StoreShares(p2, {as(hn::IfThenElse(right, at1, middle), 0, role1), as(at0, 1, role1)});
   }
 
-  VN AddEdge(VN a, VN b, VF length2) {
+  HWY_INLINE VN AddEdge(VN a, VN b, VF length2) {
     const DN dn;
     const size_t at = edges_;
     hn::StoreU(a, dn, edge_a_ + at);
@@ -200,21 +201,21 @@ class Expander : private TriangleLanes {
                                 : Flagged<false>(rules_, length2, from, to);
     }
     hn::StoreU(length2, DF(), length2_ + at);
-    if (rules_.sites) hn::StoreU(site_, dn, &patch_.edge_site[at]);
+    if (rules_.sites) hn::StoreU(site_, dn, &patch_.edges.site[at]);
     any_long_ |= rules_.even && (rules_.current() || AnyLong(length2));
     edges_ += lanes_;
-    return hn::Iota(dn, static_cast<uint32_t>(at));
+    return Counting(dn, at);
   }
 
   VF Distance2(VN index) const {
-    if (rules_.staged()) return Gather(patch_.distance2.data(), index);
+    if (rules_.staged()) return Gather(patch_.vertices.distance2.data(), index);
     // A vertex is 16 floats.
-    const float* floats = &patch_.vertex[0].eye_distance2;
+    const float* floats = &patch_.vertices.value[0].eye_distance2;
     return hn::PromoteTo(DF(), Gather(floats, hn::ShiftLeft<4>(index)));
   }
 
   // Runs of lanes_ entries, ascending: what is written beyond a run belongs to the next one.
-  void AddTriangle(VN a, VN b, VN c, VN ab, VN bc, VN ca) {
+  HWY_INLINE void AddTriangle(VN a, VN b, VN c, VN ab, VN bc, VN ca) {
     const DN dn;
     const VN corners[3] = {a, b, c};
     const VN edges[3] = {ab, bc, ca};

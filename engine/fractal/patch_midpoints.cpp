@@ -8,7 +8,6 @@
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 
 #include "hwy/highway.h"
-#include "engine/base/exact_math-inl.h"
 #include "engine/fractal/patch_lanes-inl.h"
 #include "engine/fractal/patch_moves-inl.h"
 #include "engine/fractal/patch_shares-inl.h"
@@ -21,25 +20,26 @@ namespace HWY_NAMESPACE {
 void MeasureEdgesLanes(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end) {
   const DF d;
   constexpr size_t kLanes = hn::MaxLanes(DF());
-  for (size_t i = 0; i < kPatchPadding / 8; ++i) patch.edge_a[end + i] = patch.edge_b[end + i] = 0;
+  for (size_t i = 0; i < kPatchPadding / 8; ++i)
+    patch.edges.a[end + i] = patch.edges.b[end + i] = 0;
   for (size_t i = begin; i < end; i += kLanes) {
-    const VF rest2 = hn::Abs(hn::LoadU(d, &patch.edge_length2[i]));
-    const Columns a = LoadVertices(patch.vertex.data(), &patch.edge_a[i]);
-    const Columns b = LoadVertices(patch.vertex.data(), &patch.edge_b[i]);
+    const VF rest2 = hn::Abs(hn::LoadU(d, &patch.edges.length2[i]));
+    const Columns a = LoadVertices(patch.vertices.value.data(), &patch.edges.a[i]);
+    const Columns b = LoadVertices(patch.vertices.value.data(), &patch.edges.b[i]);
     if (rules.staged()) {
-      const double* distance2 = patch.distance2.data();
-      const VF da = Gather(distance2, hn::LoadU(DN(), &patch.edge_a[i]));
-      const VF db = Gather(distance2, hn::LoadU(DN(), &patch.edge_b[i]));
-      hn::StoreU(Flagged<true>(rules, rest2, da, db), d, &patch.edge_length2[i]);
+      const double* distance2 = patch.vertices.distance2.data();
+      const VF da = Gather(distance2, hn::LoadU(DN(), &patch.edges.a[i]));
+      const VF db = Gather(distance2, hn::LoadU(DN(), &patch.edges.b[i]));
+      hn::StoreU(Flagged<true>(rules, rest2, da, db), d, &patch.edges.length2[i]);
     } else if (rules.current()) {
       const Triple e = Between(a, b);
       const VF current2 = Dot(e, e);
       const Sides sides = CurrentSides(rules, a, b, current2);
-      hn::StoreU(current2, d, &patch.edge_current2[i]);
-      hn::StoreU(WithShortSign(rest2, hn::Gt(sides.left, sides.right)), d, &patch.edge_length2[i]);
+      hn::StoreU(current2, d, &patch.edges.current2[i]);
+      hn::StoreU(WithShortSign(rest2, hn::Gt(sides.left, sides.right)), d, &patch.edges.length2[i]);
     } else {
       const VF flagged = Flagged<false>(rules, rest2, FloatOf<true>(a.v[7]), FloatOf<true>(b.v[7]));
-      hn::StoreU(flagged, d, &patch.edge_length2[i]);
+      hn::StoreU(flagged, d, &patch.edges.length2[i]);
     }
   }
 }
@@ -51,7 +51,7 @@ HWY_INLINE Triple SiteDirections(const Patch& patch, const uint32_t* edges, size
   constexpr size_t kLanes = hn::MaxLanes(DF());
   HWY_ALIGN double column[4][kLanes] = {};
   for (size_t i = 0; i < lanes; ++i) {
-    const EdgeSite& site = patch.sites[patch.edge_site[edges[i]]];
+    const EdgeSite& site = patch.edges.sites[patch.edges.site[edges[i]]];
     column[0][i] = site.direction.x;
     column[1][i] = site.direction.y;
     column[2][i] = site.direction.z;
@@ -59,23 +59,6 @@ HWY_INLINE Triple SiteDirections(const Patch& patch, const uint32_t* edges, size
   }
   coast = hn::Load(d, column[3]);
   return {hn::Load(d, column[0]), hn::Load(d, column[1]), hn::Load(d, column[2])};
-}
-
-// Affine amounts of the long edges: a pass of its own, because the power is one long chain of
-// operations, of which several must be under way at a time.
-void MeasureAmountsLanes(const SurfaceRules& rules, Patch& patch) {
-  const DF d;
-  constexpr size_t kLanes = hn::MaxLanes(DF());
-  const VF power = hn::Set(d, rules.half_H), scale = hn::Set(d, rules.affine_scale);
-  const size_t n = patch.long_count;
-  const double* length2 = patch.long_length2.data();
-  double* amount = patch.long_amount.data();
-  for (size_t k = 0; k < n; k += kLanes) {
-    const VF rest2 = hn::LoadU(d, length2 + k);
-    // Nothing below is split but by other lengths than these.
-    const MF normal = hn::Ge(rest2, hn::Set(d, 0x1p-1022));
-    hn::StoreU(scale * hn::IfThenElseZero(normal, PowOfNormal(d, rest2, power)), d, amount + k);
-  }
 }
 
 // kPlain: direction VERTEX, variant FIXED, law affine, split SHOT, no coast: what most
@@ -88,32 +71,30 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
   const DN dn;
   constexpr size_t kLanes = hn::MaxLanes(DF());
   const VF half = hn::Set(d, .5), quarter = hn::Set(d, .25), zero = hn::Zero(d);
-  const size_t n = patch.long_count;
-  const StreamVertex* vertex = patch.vertex.data();
-  StreamVertex* made = patch.vertex.data() + patch.midpoints;
-  const uint32_t* list_a = patch.long_a.data();
-  const uint32_t* list_b = patch.long_b.data();
-  uint32_t* edge_a = patch.edge_a.data();
-  uint32_t* edge_b = patch.edge_b.data();
-  double* edge_length2 = patch.edge_length2.data();
-  const size_t halves[2] = {patch.halves[0], patch.halves[1]};
-  const auto midpoints = static_cast<uint32_t>(patch.midpoints);
+  const size_t n = patch.long_edges.count;
+  const StreamVertex* vertex = patch.vertices.value.data();
+  StreamVertex* made = patch.vertices.value.data() + patch.long_edges.midpoints;
+  const uint32_t* list_a = patch.long_edges.a.data();
+  const uint32_t* list_b = patch.long_edges.b.data();
+  uint32_t* edge_a = patch.edges.a.data();
+  uint32_t* edge_b = patch.edges.b.data();
+  double* edge_length2 = patch.edges.length2.data();
+  const size_t halves[2] = {patch.long_edges.halves[0], patch.long_edges.halves[1]};
+  const size_t midpoints = patch.long_edges.midpoints;
   const bool current = !kPlain && rules.current();
   const bool sites = !kPlain && rules.sites;
   const bool staged = !kPlain && rules.staged();
   const StageWeight weight(rules, staged ? level + 1 : 1);
   for (size_t k = 0; k < n; k += kLanes) {
     const size_t lanes = n - k < kLanes ? n - k : kLanes;
-    const VF rest2 = hn::LoadU(d, &patch.long_length2[k]);
+    const VF rest2 = hn::LoadU(d, &patch.long_edges.length2[k]);
     const Columns a = LoadVertices(vertex, list_a + k);
     const Columns b = LoadVertices(vertex, list_b + k);
     const VU id_a = hn::BitCast(du, a.v[6]), id_b = hn::BitCast(du, b.v[6]);
     const VU id = MixLanes(id_a + id_b);
     VU left = hn::Zero(du), right = left;
     if (kShared) {
-      const VN number = hn::LoadU(dn, &patch.long_edge[k]);
-      left = Gather(patch.edge_left.data(), number);
-      right = Gather(patch.edge_right.data(), number);
+      LoadPairs(patch.edges.shares.data(), &patch.long_edges.number[k], left, right);
     }
     const VF g = kShared ? SharedGaussianLanes(rules, left, right, id) : GaussianLanes(rules, id);
     const VF stretch = (FloatOf<false>(a.v[7]) + FloatOf<false>(b.v[7])) * half;
@@ -124,25 +105,25 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
     MF some;
     if (kPlain || rules.direction == Direction::kVertex) normal = UnitOrZero(normal, some);
     if (sites) {
-      const Triple site = SiteDirections(patch, &patch.long_edge[k], lanes, coast);
+      const Triple site = SiteDirections(patch, &patch.long_edges.number[k], lanes, coast);
       if (rules.direction != Direction::kVertex) normal = site;
     }
     if (!kPlain && rules.direction == Direction::kUp) normal = {zero, zero, hn::Set(d, 1.0)};
 
     Triple way = normal;
-    VF offset = (hn::LoadU(d, &patch.long_amount[k]) * stretch) * g;
+    VF offset = (hn::LoadU(d, &patch.long_edges.amount[k]) * stretch) * g;
     if (!kPlain) Bend(rules, level, a, b, g, coast, way, offset);
 
     VF da = FloatOf<true>(a.v[7]), db = FloatOf<true>(b.v[7]);
     if (staged) {
-      da = Gather(patch.distance2.data(), hn::LoadU(dn, list_a + k));
-      db = Gather(patch.distance2.data(), hn::LoadU(dn, list_b + k));
+      da = Gather(patch.vertices.distance2.data(), hn::LoadU(dn, list_a + k));
+      db = Gather(patch.vertices.distance2.data(), hn::LoadU(dn, list_b + k));
     }
     VF distance2 = MiddleDistance2(da, db, rest2);
     if (staged) {
       // Never below 0, and kept as it is: as a float it would move in steps.
       distance2 = hn::IfThenElseZero(hn::Gt(distance2, zero), distance2);
-      hn::StoreU(distance2, d, &patch.distance2[patch.midpoints + k]);
+      hn::StoreU(distance2, d, &patch.vertices.distance2[patch.long_edges.midpoints + k]);
       offset = offset * weight(distance2);
     }
 
@@ -178,7 +159,7 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
           staged ? Flagged<true>(rules, first2, da, dm) : Flagged<false>(rules, first2, da, dm);
     }
     const size_t first = halves[0] + k, second = halves[1] + k;
-    const VN middle = hn::Iota(dn, midpoints + static_cast<uint32_t>(k));
+    const VN middle = Counting(dn, midpoints + k);
     hn::StoreU(hn::LoadU(dn, list_a + k), dn, edge_a + first);
     hn::StoreU(middle, dn, edge_b + first);
     hn::StoreU(first2, d, edge_length2 + first);
@@ -186,21 +167,21 @@ HWY_INLINE void SplitEdgesBy(const SurfaceRules& rules, Patch& patch, uint32_t l
     hn::StoreU(hn::LoadU(dn, list_b + k), dn, edge_b + second);
     hn::StoreU(second2, d, edge_length2 + second);
     if (kShared && (current || AnyLong(first2) || AnyLong(second2))) {
-      hn::StoreU(HalfShare(left, false), du, &patch.edge_left[first]);
-      hn::StoreU(HalfShare(right, true), du, &patch.edge_right[first]);
-      hn::StoreU(HalfShare(left, true), du, &patch.edge_left[second]);
-      hn::StoreU(HalfShare(right, false), du, &patch.edge_right[second]);
+      uint64_t* shares = patch.edges.shares.data();
+      hn::StoreInterleaved2(HalfShare(left, false), HalfShare(right, true), du, shares + 2 * first);
+      hn::StoreInterleaved2(HalfShare(left, true), HalfShare(right, false), du,
+                            shares + 2 * second);
     }
     for (size_t i = 0; sites && i < lanes; ++i) {
-      const uint32_t number = patch.edge_site[patch.long_edge[k + i]];
-      patch.edge_site[first + i] = patch.edge_site[second + i] = number;
+      const uint32_t number = patch.edges.site[patch.long_edges.number[k + i]];
+      patch.edges.site[first + i] = patch.edges.site[second + i] = number;
     }
   }
   // The gap between the two runs.
   for (size_t i = halves[0] + n; i < halves[1]; ++i) {
     edge_a[i] = edge_b[i] = 0;
     edge_length2[i] = -1;
-    if (sites) patch.edge_site[i] = 0;
+    if (sites) patch.edges.site[i] = 0;
   }
 }
 
@@ -226,15 +207,10 @@ HWY_AFTER_NAMESPACE();
 namespace fjord {
 
 HWY_EXPORT(MeasureEdgesLanes);
-HWY_EXPORT(MeasureAmountsLanes);
 HWY_EXPORT(SplitEdgesLanes);
 
 void MeasureEdges(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end) {
   HWY_DYNAMIC_DISPATCH(MeasureEdgesLanes)(rules, patch, begin, end);
-}
-
-void MeasureAmounts(const SurfaceRules& rules, Patch& patch) {
-  HWY_DYNAMIC_DISPATCH(MeasureAmountsLanes)(rules, patch);
 }
 
 void SplitEdges(const SurfaceRules& rules, Patch& patch, uint32_t level) {

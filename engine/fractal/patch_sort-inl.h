@@ -38,7 +38,7 @@ HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin,
   static constexpr uint8_t kCase[8] = {kLeaves, 0, 0, 1, 0, 1, 1, 2};
   static constexpr uint8_t kTurn[8] = {0, 0, 1, 0, 2, 2, 1, 0};
   const PatchTriangles& from = patch.triangles;
-  const uint32_t* slots = patch.edge_slot.data();
+  const uint32_t* slots = patch.edges.slot.data();
   size_t count[5] = {};
   for (size_t t = begin; t < end; ++t) {
     uint32_t v[5], e[5], s[5];
@@ -48,8 +48,8 @@ HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin,
       v[k] = from.corner[k][t];
       e[k] = from.edge[k][t];
       s[k] = slots[e[k] & ~Patch::kFlip];
-      flags |= (s[k] < Patch::kWaits ? 1u : 0u) << k;
-      waits |= s[k] == Patch::kWaits;
+      flags |= (s[k] < PatchEdges::kWaits ? 1u : 0u) << k;
+      waits |= s[k] == PatchEdges::kWaits;
     }
     for (uint32_t k = 0; k < 2; ++k) {
       v[3 + k] = v[k];
@@ -69,10 +69,10 @@ HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin,
   }
   for (int i = 0; i < 5; ++i) lists[i].count = count[i];
   for (int k = 0; k < 3; ++k) {
-    std::memcpy(&patch.leaf[k][patch.leaf_count], lists[kLeaves].corner[k],
+    std::memcpy(&patch.leaves.corner[k][patch.leaves.count], lists[kLeaves].corner[k],
                 count[kLeaves] * sizeof(uint32_t));
   }
-  patch.leaf_count += count[kLeaves];
+  patch.leaves.count += count[kLeaves];
 }
 #else
 HWY_INLINE V32 Turned(V32 by0, V32 by1, V32 by2, M32 turn1, M32 turn2) {
@@ -97,20 +97,20 @@ HWY_INLINE void Append(M32 mask, const V32* v, const V32* e, const Patch& patch,
 HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin, size_t end,
                           CaseList* lists) {
   const D32 d;
-  const V32 index_bits = hn::Set(d, ~Patch::kFlip), short_slot = hn::Set(d, Patch::kShort);
-  const V32 waiting_slot = hn::Set(d, Patch::kWaits);
+  const V32 index_bits = hn::Set(d, ~Patch::kFlip), short_slot = hn::Set(d, PatchEdges::kShort);
+  const V32 waiting_slot = hn::Set(d, PatchEdges::kWaits);
   const bool staged = rules.staged();
   for (const int i : {0, 1, 2, kWaiting}) lists[i].count = 0;
   const PatchTriangles& from = patch.triangles;
   for (size_t t = begin; t < end; t += kLanes32) {
-    const M32 valid = hn::FirstN(d, end - t);
+    const M32 valid = FirstLanes(d, end - t);
     V32 v[3], e[3], s[3];
     M32 split[3];
     for (int k = 0; k < 3; ++k) {
       v[k] = hn::LoadU(d, &from.corner[k][t]);
       e[k] = hn::IfThenElseZero(valid, hn::LoadU(d, &from.edge[k][t]));
       const V32 index = hn::And(e[k], index_bits);
-      s[k] = Gather(patch.edge_slot.data(), index);
+      s[k] = Gather(patch.edges.slot.data(), index);
       split[k] = hn::And(valid, hn::Ne(s[k], short_slot));
     }
     M32 leaf = valid;
@@ -128,8 +128,9 @@ HWY_INLINE void SortBlock(const SurfaceRules& rules, Patch& patch, size_t begin,
     const M32 any = hn::Or(split[0], hn::Or(split[1], split[2]));
     leaf = hn::AndNot(any, leaf);
     const Compactor leaf_front(leaf);
-    for (int k = 0; k < 3; ++k) hn::StoreU(leaf_front(v[k]), d, &patch.leaf[k][patch.leaf_count]);
-    patch.leaf_count += hn::CountTrue(d, leaf);
+    for (int k = 0; k < 3; ++k)
+      hn::StoreU(leaf_front(v[k]), d, &patch.leaves.corner[k][patch.leaves.count]);
+    patch.leaves.count += hn::CountTrue(d, leaf);
 
     const M32 three = hn::And(split[0], hn::And(split[1], split[2]));
     const M32 both01 = hn::And(split[0], split[1]), both12 = hn::And(split[1], split[2]),

@@ -44,6 +44,27 @@ constexpr size_t kLanes32 = hn::MaxLanes(D32());
 HWY_INLINE VI Signed(V32 v) { return hn::BitCast(I32(), v); }
 HWY_INLINE V32 Unsigned(VI v) { return hn::BitCast(D32(), v); }
 
+// n, n + 1, ... and the mask of lanes 0..count - 1. Under g++ 12 Highway's Iota, which its FirstN
+// needs too where masks are vectors, writes lanes to the stack one by one and waits for them.
+alignas(64) constexpr uint32_t kCounting[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                8, 9, 10, 11, 12, 13, 14, 15};
+static_assert(kLanes32 <= 16);
+template <typename D>
+HWY_INLINE hn::Vec<D> Counting(D d, size_t n) {
+  return hn::Load(d, kCounting) + hn::Set(d, static_cast<uint32_t>(n));
+}
+template <typename D>
+HWY_INLINE hn::Mask<D> FirstLanes(D d, size_t count) {
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+  return hn::FirstN(d, count);
+#else
+  const hn::RebindToSigned<D> signed_tag;
+  const auto most = static_cast<int32_t>(count < 16 ? count : 16);
+  return hn::RebindMask(
+      d, hn::Lt(hn::BitCast(signed_tag, hn::Load(d, kCounting)), hn::Set(signed_tag, most)));
+#endif
+}
+
 // Brings the lanes of a mask to the front. Highway's own Compress copies its table at every call
 // under g++ 12, and works the order out again for every vector.
 class Compactor {
@@ -56,7 +77,7 @@ class Compactor {
 #if HWY_TARGET == HWY_SCALAR
     return hn::Zero(D32());
 #else
-    return V32{_mm512_maskz_expand_epi32(order_.raw, hn::Iota(D32(), 0).raw)};
+    return V32{_mm512_maskz_expand_epi32(order_.raw, Counting(D32(), 0).raw)};
 #endif
   }
 
@@ -127,6 +148,28 @@ HWY_INLINE hn::Vec<DS> Gather(const float* from, VN index) {
   return hn::GatherIndex(DS(), from, hn::BitCast(hn::RebindToSigned<DN>(), index));
 }
 #endif
+
+// Pairs of words, lane by lane: pairs[2 index], pairs[2 index + 1].
+HWY_INLINE void LoadPairs(const uint64_t* pairs, const uint32_t* index, VU& first, VU& second) {
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+  const auto pair = [&](int i) {
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(pairs + 2 * size_t{index[i]}));
+  };
+  const auto four = [&](int i) {  // i, i + 2, i + 4, i + 6
+    const __m256i low = _mm256_inserti128_si256(_mm256_castsi128_si256(pair(i)), pair(i + 2), 1);
+    const __m256i high =
+        _mm256_inserti128_si256(_mm256_castsi128_si256(pair(i + 4)), pair(i + 6), 1);
+    return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+  };
+  const __m512i even = four(0), odd = four(1);
+  first = VU{_mm512_unpacklo_epi64(even, odd)};
+  second = VU{_mm512_unpackhi_epi64(even, odd)};
+#else
+  const VN at = hn::ShiftLeft<1>(hn::LoadU(DN(), index));
+  first = Gather(pairs, at);
+  second = Gather(pairs + 1, at);
+#endif
+}
 
 // Eight columns of N vertices: x y z, direction x y z, id, and the word of two floats.
 struct Columns {

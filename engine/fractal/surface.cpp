@@ -34,9 +34,9 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
       patch.AddVertex(coarse_.vertices[v], Rgb(0), coarse_.eye_distance2[v]);
     }
     for (const CoarseEdge& e : coarse_.edges) patch.AddEdge(e.a, e.b, e.length2, e.current2, 0);
-    if (patch.edge_count > 0) MeasureEdges(rules_, patch, 0, patch.edge_count);
+    if (patch.edges.count > 0) MeasureEdges(rules_, patch, 0, patch.edges.count);
     for (size_t i = 0; i < coarse_.edges.size(); ++i) {
-      coarse_.edges[i].length2 = patch.edge_length2[i];
+      coarse_.edges[i].length2 = patch.edges.length2[i];
     }
   }
 
@@ -206,19 +206,19 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
               Patch& patch, StreamSink& sink, StreamStats& stats) const {
     const SurfaceRules& rules = RulesOf(root, sites);
     patch.Clear(sites, false, 3 * hint + 64);
-    patch.places = sink.ReadsPlaces();
+    patch.vertices.placed = sink.ReadsPlaces();
     Load(root, 0, rules.sites, patch);
     uint32_t level = root.level;
     PatchStep step;
     while ((step = patch.Step(rules, level)) == PatchStep::kSplit) level = patch.level + 1;
     if (step == PatchStep::kFull) return false;
     StreamBatch batch;
-    batch.vertices = {patch.vertex.data(), patch.vertex_count};
+    batch.vertices = {patch.vertices.value.data(), patch.vertices.count};
     batch.triangles = patch.PackLeaves();
-    if (patch.places) batch.places = {patch.place.data(), patch.vertex_count};
+    if (patch.vertices.placed) batch.places = {patch.vertices.place.data(), patch.vertices.count};
     batch.element = static_cast<uint32_t>(element);
-    stats.midpoints += patch.vertex_count - 3;
-    stats.triangles += patch.leaf_count;
+    stats.midpoints += patch.vertices.count - 3;
+    stats.triangles += patch.leaves.count;
     stats.depth = std::max(stats.depth, level);
     sink.Take(batch);
     return true;
@@ -230,11 +230,11 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
     Patch& patch = space.patch;
     const SurfaceRules& rules = RulesOf(root, sites);
     patch.Clear(sites, false, kMostPoints);
-    patch.places = places;
+    patch.vertices.placed = places;
     Load(root, 0, rules.sites, patch);
     const PatchStep step = patch.Step(rules, root.level);
     FJORD_CHECK(step == PatchStep::kSplit, root.level);
-    stats.midpoints += patch.vertex_count - 3;
+    stats.midpoints += patch.vertices.count - 3;
     stats.depth = std::max(stats.depth, patch.level + 1);
     for (size_t t = patch.triangles.count; t-- > 0;) {
       space.stack.push_back(ChildOf(root, patch, t, rules.sites));
@@ -249,17 +249,17 @@ class PreparedSurface final : public PreparedFractal, private SurfaceRoots {
       const uint32_t v = patch.triangles.corner[k][t];
       const uint32_t used = patch.triangles.edge[k][t];
       const uint32_t e = used & ~Patch::kFlip;
-      child.vertex[k] = patch.vertex[v];
-      if (rules_.staged()) child.eye_distance2[k] = patch.distance2[v];
-      if (patch.colors) child.color[k] = patch.color[v];
-      if (patch.places) child.place[k] = patch.place[v];
-      child.length2[k] = patch.edge_length2[e];
-      child.current2[k] = patch.edge_current2[e];
+      child.vertex[k] = patch.vertices.value[v];
+      if (rules_.staged()) child.eye_distance2[k] = patch.vertices.distance2[v];
+      if (patch.vertices.colored) child.color[k] = patch.vertices.color[v];
+      if (patch.vertices.placed) child.place[k] = patch.vertices.place[v];
+      child.length2[k] = patch.edges.length2[e];
+      child.current2[k] = patch.edges.current2[e];
       if (rules_.even) {
-        child.inside[k] = used == e ? patch.edge_left[e] : patch.edge_right[e];
-        child.outside[k] = used == e ? patch.edge_right[e] : patch.edge_left[e];
+        child.inside[k] = patch.edges.shares[used == e ? 2 * e : 2 * e + 1];
+        child.outside[k] = patch.edges.shares[used == e ? 2 * e + 1 : 2 * e];
       }
-      child.site[k] = sites_kept ? patch.edge_site[e] : 0;
+      child.site[k] = sites_kept ? patch.edges.site[e] : 0;
     }
     return child;
   }

@@ -14,14 +14,14 @@ void SurfaceGroup::AddSites(const std::array<EdgeSite, 4>& sites) {
 }
 
 void SurfaceGroup::Begin() {
-  patch_.sites = sites_.data();
+  patch_.edges.sites = sites_.data();
   pieces_.clear();
   whole_.clear();
-  for (uint32_t side = 0; side < patch_.edge_count; ++side) {
+  for (uint32_t side = 0; side < patch_.edges.count; ++side) {
     whole_.push_back(side);
     pieces_.push_back({side, side, kNone, kNone});
   }
-  along_.assign(patch_.edge_count, 0);
+  along_.assign(patch_.edges.count, 0);
 }
 
 void SurfaceGroup::Follow() {
@@ -29,17 +29,17 @@ void SurfaceGroup::Follow() {
   const size_t end = whole_.size();
   for (size_t i = 0; i < end; ++i) {
     const uint32_t number = whole_[i];
-    const uint32_t slot = patch_.edge_slot[pieces_[number].edge];
-    if (slot == Patch::kShort) continue;
-    if (slot >= patch_.long_count) {
+    const uint32_t slot = patch_.edges.slot[pieces_[number].edge];
+    if (slot == PatchEdges::kShort) continue;
+    if (slot >= patch_.long_edges.count) {
       whole_[kept++] = number;
       continue;
     }
     const uint32_t side = pieces_[number].side;
     ++along_[side];
-    pieces_[number].middle = static_cast<uint32_t>(patch_.midpoints) + slot;
+    pieces_[number].middle = static_cast<uint32_t>(patch_.long_edges.midpoints) + slot;
     pieces_[number].halves = static_cast<uint32_t>(pieces_.size());
-    for (const size_t half : patch_.halves) {
+    for (const size_t half : patch_.long_edges.halves) {
       whole_.push_back(static_cast<uint32_t>(pieces_.size()));
       pieces_.push_back({static_cast<uint32_t>(half) + slot, side, kNone, kNone});
     }
@@ -65,11 +65,11 @@ bool SurfaceGroup::Expand(const SurfaceRules& rules, uint32_t level,
   PatchStep step;
   for (; (step = patch_.Step(rules, level)) == PatchStep::kSplit; level = patch_.level + 1) {
     Follow();
-    upper_.resize(patch_.vertex_count);
-    level_.resize(patch_.vertex_count, static_cast<uint8_t>(patch_.level + 1));
-    for (size_t k = 0; k < patch_.long_count; ++k) {
-      const Identity a{0, upper_[patch_.long_a[k]]}, b{0, upper_[patch_.long_b[k]]};
-      upper_[patch_.midpoints + k] = MidpointIdentity(a, b).hi;
+    upper_.resize(patch_.vertices.count);
+    level_.resize(patch_.vertices.count, static_cast<uint8_t>(patch_.level + 1));
+    for (size_t k = 0; k < patch_.long_edges.count; ++k) {
+      const Identity a{0, upper_[patch_.long_edges.a[k]]}, b{0, upper_[patch_.long_edges.b[k]]};
+      upper_[patch_.long_edges.midpoints + k] = MidpointIdentity(a, b).hi;
     }
   }
   return step == PatchStep::kDone;

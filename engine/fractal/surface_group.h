@@ -39,7 +39,9 @@ class SurfaceGroup {
   // Those points, from the side's first corner to its second. Good until the next call.
   std::span<const uint32_t> Along(size_t side);
 
-  Identity IdentityOf(size_t vertex) const { return {patch_.vertex[vertex].id, upper_[vertex]}; }
+  Identity IdentityOf(size_t vertex) const {
+    return {patch_.vertices.value[vertex].id, upper_[vertex]};
+  }
   uint8_t LevelOf(size_t vertex) const { return level_[vertex]; }
 
  private:

@@ -120,19 +120,19 @@ void SurfacePlan::Cut(const Part& part, const PatchRoot& root, const EdgeSite* s
   roots_.Load(root, 0, rules.sites, cut_);
   const PatchStep step = cut_.Step(rules, root.level);
   FJORD_CHECK(step == PatchStep::kSplit, root.level);
-  std::vector<uint32_t> point(cut_.vertex_count, kNone);
-  std::vector<Side> side(cut_.edge_count);
+  std::vector<uint32_t> point(cut_.vertices.count, kNone);
+  std::vector<Side> side(cut_.edges.count);
   for (uint32_t k = 0; k < 3; ++k) {
     point[k] = part.corner[k];
     side[k] = part.side[k];
-    const uint32_t slot = cut_.edge_slot[k];
-    if (slot >= cut_.long_count) continue;
-    const size_t made = cut_.midpoints + slot;
+    const uint32_t slot = cut_.edges.slot[k];
+    if (slot >= cut_.long_edges.count) continue;
+    const size_t made = cut_.long_edges.midpoints + slot;
     const uint32_t number = part.side[k].border;
     if (borders[number].middle == kNone) {
       const Border whole = borders[number];
       const uint32_t middle =
-          AddPoint(cut_.vertex[made], colored ? cut_.color[made] : Rgb(0),
+          AddPoint(cut_.vertices.value[made], colored ? cut_.vertices.color[made] : Rgb(0),
                    MidpointIdentity(shape.identity[whole.a], shape.identity[whole.b]),
                    static_cast<uint8_t>(cut_.level + 1), whole.coast);
       const uint32_t first = AddBorder(whole.a, middle, whole.coast);
@@ -143,10 +143,11 @@ void SurfacePlan::Cut(const Part& part, const PatchRoot& root, const EdgeSite* s
     }
     const Border& whole = borders[number];
     point[made] = whole.middle;
-    for (int h = 0; h < 2; ++h) side[cut_.halves[h] + slot] = part.side[k].Half(whole, h);
+    for (int h = 0; h < 2; ++h)
+      side[cut_.long_edges.halves[h] + slot] = part.side[k].Half(whole, h);
   }
-  for (size_t e = cut_.halves[1] + cut_.long_count; e < cut_.edge_count; ++e) {
-    side[e] = {AddBorder(point[cut_.edge_a[e]], point[cut_.edge_b[e]], false), false};
+  for (size_t e = cut_.long_edges.halves[1] + cut_.long_edges.count; e < cut_.edges.count; ++e) {
+    side[e] = {AddBorder(point[cut_.edges.a[e]], point[cut_.edges.b[e]], false), false};
   }
   for (size_t t = cut_.triangles.count; t-- > 0;) {
     Part child;
@@ -202,9 +203,9 @@ bool SurfacePlan::CountGroups(size_t end) {
     Group& group = groups[begin + g];
     std::unique_ptr<SurfaceGroup> made = Borrow();
     if (!Expand(group, false, made.get())) full = true;
-    group.leaves = static_cast<uint32_t>(made->patch().leaf_count);
+    group.leaves = static_cast<uint32_t>(made->patch().leaves.count);
     const uint32_t corners = 3 * (group.end - group.first);
-    group.inner = static_cast<uint32_t>(made->patch().vertex_count) - corners;
+    group.inner = static_cast<uint32_t>(made->patch().vertices.count) - corners;
     for (uint32_t i = 0; i < corners; ++i) {
       const uint32_t along = made->CountAlong(i);
       parts[group.first + i / 3].along[i % 3] = along;

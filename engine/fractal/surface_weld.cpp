@@ -69,7 +69,7 @@ class SurfaceWriter {
     std::unique_ptr<SurfaceGroup> made = plan_.Borrow();
     FJORD_CHECK(plan_.Expand(group, details_, made.get()), group.first);
     const Patch& patch = made->patch();
-    std::vector<uint32_t> place(patch.vertex_count, kNone);  // of each of the patch's vertices
+    std::vector<uint32_t> place(patch.vertices.count, kNone);  // of each of the patch's vertices
     const uint32_t corners = 3 * (group.end - group.first);
     for (uint32_t i = 0; i < corners; ++i) {
       const uint32_t number = group.first + i / 3;
@@ -84,14 +84,14 @@ class SurfaceWriter {
       for (const uint32_t v : along) WritePoint(*made, v, place[v], border.coast);
     }
     auto inner = static_cast<uint32_t>(group.first_point);
-    for (uint32_t v = corners; v < patch.vertex_count; ++v) {
+    for (uint32_t v = corners; v < patch.vertices.count; ++v) {
       if (place[v] != kNone) continue;
       place[v] = inner++;
       WritePoint(*made, v, place[v], false);
     }
     uint32_t* corner = shape_.mesh.face_vertex.data() + 3 * group.first_leaf;
-    for (size_t t = 0; t < patch.leaf_count; ++t) {
-      for (const PatchBuffer<uint32_t>& leaf : patch.leaf) *corner++ = place[leaf[t]];
+    for (size_t t = 0; t < patch.leaves.count; ++t) {
+      for (const PatchBuffer<uint32_t>& leaf : patch.leaves.corner) *corner++ = place[leaf[t]];
     }
     plan_.Return(std::move(made));
   }
@@ -112,9 +112,9 @@ class SurfaceWriter {
   }
 
   void WritePoint(const SurfaceGroup& made, size_t vertex, size_t place, bool coast) {
-    const StreamVertex& v = made.patch().vertex[vertex];
+    const StreamVertex& v = made.patch().vertices.value[vertex];
     shape_.mesh.points[place] = v.position;
-    if (plan_.colored) shape_.mesh.colors[place] = made.patch().color[vertex];
+    if (plan_.colored) shape_.mesh.colors[place] = made.patch().vertices.color[vertex];
     if (!details_) return;
     shape_.identity[place] = made.IdentityOf(vertex);
     shape_.level[place] = made.LevelOf(vertex);

@@ -10,6 +10,12 @@ namespace fjord {
 
 // segments around (>= 3), rings from pole to pole (>= 2).
 Result<Mesh> MakeEllipsoid(const Vec3& radii, uint32_t segments, uint32_t rings);
+// The same solid without poles, by dividing each edge of an icosahedron into
+// `steps` (>= 1): 10 steps^2 + 2 points, six edges at each but for twelve with five, edges of a
+// sphere within 1.19 times each other. Only + - * / and sqrt.
+Result<Mesh> MakeEvenEllipsoid(const Vec3& radii, uint32_t steps);
+// The steps that give nearest to so many points, at least 1.
+uint32_t EvenSteps(uint64_t points);
 // Around z: centre line `radius`, tube `tube` < radius; both counts >= 3.
 Result<Mesh> MakeTorus(double radius, double tube, uint32_t segments, uint32_t rings);
 // Centred, closed; along z as many steps as the larger of the two counts.

@@ -241,8 +241,8 @@ void Cover(const Triangle* triangles, size_t count, const int32_t* xy, const Til
   out->larges = 0;
   for (size_t first = 0; first < count; first += kLanes32) {
     const Lanes t(block, first);
-    const V32 numbers = hn::Iota(du, static_cast<uint32_t>(first));
-    const MI valid = hn::RebindMask(d, hn::FirstN(du, count - first));
+    const V32 numbers = Counting(du, first);
+    const MI valid = hn::RebindMask(d, FirstLanes(du, count - first));
     const MI touches = hn::And(valid, coverer.Touches(t));
     // Differences of clipped corners may wrap: they are asked for by name.
     const MI clipped = hn::And(valid, hn::Eq(t.right, clip));
@@ -259,7 +259,7 @@ void Cover(const Triangle* triangles, size_t count, const int32_t* xy, const Til
   block.Load(triangles, out->wide.data(), wides, xy);
   for (size_t first = 0; first < wides; first += kLanes32) {
     const V32 numbers = hn::LoadU(du, out->wide.data() + first);
-    const MI valid = hn::RebindMask(d, hn::FirstN(du, wides - first));
+    const MI valid = hn::RebindMask(d, FirstLanes(du, wides - first));
     coverer.Cover(Lanes(block, first), valid, numbers, 2, 2);
   }
 }

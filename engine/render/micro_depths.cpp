@@ -40,7 +40,7 @@ struct Led {
     const D32 du;
     const I32 d;
     const V32 code =
-        hn::IfThenElseZero(hn::FirstN(du, count), hn::LoadU(du, hits.code.data() + at));
+        hn::IfThenElseZero(FirstLanes(du, count), hn::LoadU(du, hits.code.data() + at));
     const V32 number = hn::And(code, hn::Set(du, HitCode::kTriangle));
     hn::StoreU(number, du, hits.triangle.data() + at);
     const V32 place = number + number + number;
@@ -95,7 +95,7 @@ struct Led {
     const VI pixel = row * hn::Set(d, tile.width) + column;
     const V32 sample = hn::And(hn::ShiftRight<HitCode::kSample>(code), hn::Set(du, 0xf));
     const V32 index = Unsigned(pixel * hn::Set(d, samples)) + sample;
-    hn::StoreU(hn::IfThenElseZero(hn::FirstN(du, count), index), du, hits.sample.data() + at);
+    hn::StoreU(hn::IfThenElseZero(FirstLanes(du, count), index), du, hits.sample.data() + at);
   }
 };
 

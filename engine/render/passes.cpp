@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/render/shadow_share.h"
+
 namespace fjord {
 namespace {
 
@@ -9,29 +11,13 @@ void FillColor(const Rgb& color, SurfaceHits* hits) {
   for (int k = 0; k < 3; ++k) std::fill_n(hits->color[k].begin(), hits->size, color[k]);
 }
 
-// The unit normal in the world, turned to the eye.
-Vec3 WorldNormal(const Surface& surface, const SurfaceHits& hits, size_t i) {
-  const auto& m = surface.normal_matrix;
-  const double x = hits.normal[0][i], y = hits.normal[1][i], z = hits.normal[2][i];
-  const Vec3 normal(m[0] * x + m[1] * y + m[2] * z, m[3] * x + m[4] * y + m[5] * z,
-                    m[6] * x + m[7] * y + m[8] * z);
-  const Vec3 to_eye(hits.to_eye[0][i], hits.to_eye[1][i], hits.to_eye[2][i]);
-  return Unit(glm::dot(normal, to_eye) < 0 ? -normal : normal);
-}
-
-// How much of each light with a shadow map arrives; nothing where it stands behind the surface.
+// How much of each light with a shadow map arrives.
 void CastShadows(const PassInput& input, SurfaceHits* hits) {
   const Surface& surface = input.setup.owners[input.owner].surface;
   hits->arrives.resize(input.setup.shadows.size());
   hits->Resize(hits->size);
-  for (size_t i = 0; i < hits->size; ++i) {
-    const Vec3 normal = WorldNormal(surface, *hits, i);
-    const Vec3 point(hits->position[0][i], hits->position[1][i], hits->position[2][i]);
-    for (size_t s = 0; s < input.setup.shadows.size(); ++s) {
-      const ShadowMap& shadow = input.setup.shadows[s];
-      const bool faces = glm::dot(normal, shadow.to_light()) > 0;
-      hits->arrives[s][i] = faces ? shadow.Share(point, normal) : 0;
-    }
+  for (size_t s = 0; s < input.setup.shadows.size(); ++s) {
+    ShareOfLight(surface, input.setup.shadows[s], *hits, hits->arrives[s].data());
   }
 }
 

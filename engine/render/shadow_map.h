@@ -20,6 +20,15 @@
 
 namespace fjord {
 
+// A map as what compares with it reads it (shadow_share.cpp).
+struct ShadowTexels {
+  static constexpr int kBlockShift = 3;  // blocks are 8 texels wide and high
+
+  const float* nearness;  // of each texel, row by row
+  const float* most;      // of a block and those round it
+  uint32_t width, height, blocks_x;
+};
+
 class ShadowMap {
  public:
   // No more texels than this in one map.
@@ -29,21 +38,18 @@ class ShadowMap {
   // each texel, row by row, View's depth; minus infinity where nothing is.
   ShadowMap(const View& view, std::vector<float> nearness);
 
-  const Vec3& to_light() const { return to_light_; }
-
-  // The share of the light that arrives, 0..1, at a point of the world on a surface whose unit
-  // normal points to the light's side.
-  float Share(const Vec3& point, const Vec3& normal) const;
+  const View& view() const { return view_; }
+  ShadowTexels texels() const {
+    return {nearness_.data(), most_.data(), view_.width, view_.height,
+            static_cast<uint32_t>(blocks_x_)};
+  }
 
   size_t Bytes() const { return (nearness_.capacity() + most_.capacity()) * sizeof(float); }
 
  private:
-  static constexpr int32_t kBlock = 8;  // texels
-
-  bool IsFree(int32_t x, int32_t y, float least) const;
+  static constexpr int32_t kBlock = 1 << ShadowTexels::kBlockShift;  // texels
 
   View view_;
-  Vec3 to_light_;
   int32_t width_, height_;
   std::vector<float> nearness_;
   size_t BlockIndex(int32_t x, int32_t y) const {

@@ -169,6 +169,12 @@ std::string StemOf(const std::string& file_name) {
 }
 
 void FillPrimitive(v1::Primitive* primitive) {
+  const bool ball =
+      primitive->kind() == v1::Primitive::SPHERE || primitive->kind() == v1::Primitive::ELLIPSOID;
+  if (ball && !primitive->has_base()) {
+    const bool by_latitude = primitive->has_segments() || primitive->has_rings();
+    primitive->set_base(by_latitude ? v1::Primitive::LATITUDE : v1::Primitive::EVEN);
+  }
   const bool flat_sided =
       primitive->kind() == v1::Primitive::BOX || primitive->kind() == v1::Primitive::GRID;
   const uint32_t along = primitive->kind() == v1::Primitive::BOX ? 1 : 8;

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "engine/formats/known_file.h"
 #include "engine/scene/binder.h"
 #include "engine/scene/limits.h"
 #include "engine/scene/read_text.h"
@@ -19,6 +20,11 @@ Errors Read(const std::string& text, bool json, v1::Scene* scene, SceneSource* s
   MessageBinder binder(scene, source->name, json, &source->places);
   json ? ReadJsonForm(text, &binder) : ReadTextForm(text, &binder);
   return binder.Take();
+}
+
+// Has the reader itself said what the file is, with its place?
+bool IsNamed(const Errors& errors) {
+  return errors.size() == 1 && errors[0].message.find("not a scene") != std::string::npos;
 }
 
 // Is there a field anywhere inside that this version does not know?
@@ -52,6 +58,9 @@ Errors ParseScene(const std::string& text, v1::Scene* scene, SceneSource* source
   }
   const size_t zero = text.find('\0');
   if (zero != std::string::npos) {
+    if (std::string why = WhyNotScene(text, source->name); !why.empty()) {
+      return {Invalid(std::move(why), file)};
+    }
     return {Invalid("not a scene in text form: byte " + std::to_string(zero + 1) + " is 0", file)};
   }
   const std::string mark = "\xef\xbb\xbf";  // UTF-8 byte order mark
@@ -61,7 +70,12 @@ Errors ParseScene(const std::string& text, v1::Scene* scene, SceneSource* source
     return {Invalid("the scene is empty; give it at least one object", file)};
   const std::string body = start == 0 ? "" : text.substr(start);
   const std::string& whole = start == 0 ? text : body;
-  return Read(whole, text[first] == '{', scene, source);
+  Errors errors = Read(whole, text[first] == '{', scene, source);
+  if (errors.empty()) return errors;
+  // What is written in another language has as many defects as words; one line says more.
+  std::string why = WhyNotScene(text, source->name);
+  if (why.empty() || IsNamed(errors)) return errors;
+  return {Invalid(std::move(why), file)};
 }
 
 Errors ParseSceneBinary(const std::string& bytes, v1::Scene* scene, SceneSource* source) {

@@ -38,6 +38,7 @@ constexpr Row kRows[] = {
     {"fjord.v1.Primitive.radii", {0, kLargest, true}},
     {"fjord.v1.Primitive.segments", {1, 16'000'000, false}},
     {"fjord.v1.Primitive.rings", {1, 16'000'000, false}},
+    {"fjord.v1.File.spacing", {0, kLargest, true}},
     {"fjord.v1.Heights.pixels", {0, 1e6, true}},
     {"fjord.v1.Heights.epsilon", {0, kLargest, true}},
     {"fjord.v1.Fractal.epsilon", {0, kLargest, true}},

@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "engine/formats/known_file.h"
 #include "engine/scene/limits.h"
 #include "engine/scene/read_text.h"
 
@@ -33,16 +34,6 @@ struct CountingIterator {
     return a.at != b.at;
   }
 };
-
-// What comes from a map program instead of a scene.
-bool IsGeoJson(const std::string& type) {
-  for (const char* known :
-       {"FeatureCollection", "Feature", "GeometryCollection", "Point", "MultiPoint", "LineString",
-        "MultiLineString", "Polygon", "MultiPolygon", "Topology"}) {
-    if (type == known) return true;
-  }
-  return false;
-}
 
 // The library's event interface; false stops it.
 class JsonReader {
@@ -77,7 +68,7 @@ class JsonReader {
   }
   bool string(const std::string& value) {
     const TextPlace at = Begin();
-    if (depth_ == 1 && in_type_ && IsGeoJson(value)) {
+    if (depth_ == 1 && in_type_ && IsGeoJsonType(value)) {
       binder_->Refuse(at, "this is GeoJSON (\"type\": \"" + value +
                               "\"), not a scene. A scene has fields such as objects and camera; "
                               "shapes are read from the .std, .obj, .ply and .svg files that it "

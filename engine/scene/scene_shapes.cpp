@@ -37,9 +37,37 @@ bool ReadAsset(v1::File* file, const Route& route, const AssetReader& reader,
   return true;
 }
 
+// A picture has none of what shapes have.
+bool CheckPicture(const v1::File& file, const Route& route, SceneErrors* errors) {
+  const std::pair<const char*, bool> fields[] = {{"outline", file.outline()},
+                                                 {"curve", file.curve() > 0},
+                                                 {"spacing", file.has_spacing()},
+                                                 {"up", file.up() != v1::File::Z}};
+  for (const auto& [field, is_given] : fields) {
+    if (!is_given) continue;
+    errors->Add(route.Then("heights").Then("file").Then(field),
+                "a picture of heights has no " + std::string(field) + "; files of shapes have");
+    return false;
+  }
+  return true;
+}
+
 // What is written in the scene, so that each defect has its place; false where there is one.
 bool CheckWritten(const v1::Shape& shape, const Route& route, SceneErrors* errors) {
-  if (shape.has_primitive()) return !errors->RefusedWithin(route);
+  if (shape.has_primitive()) {
+    const v1::Primitive& primitive = shape.primitive();
+    const bool ball =
+        primitive.kind() == v1::Primitive::SPHERE || primitive.kind() == v1::Primitive::ELLIPSOID;
+    if (primitive.has_base() && !ball) {
+      errors->Add(
+          route.Then("primitive").Then("base"),
+          v1::Primitive::Kind_Name(primitive.kind()) + " has no base; SPHERE and ELLIPSOID have");
+      return false;
+    }
+    return !errors->RefusedWithin(route);
+  }
+  if (shape.has_file()) return !errors->RefusedWithin(route);
+  if (shape.heights().has_file()) return CheckPicture(shape.heights().file(), route, errors);
   if (!shape.has_mesh()) return true;
   const v1::Mesh& mesh = shape.mesh();
   const auto count = static_cast<uint32_t>(mesh.point_size());

@@ -6,6 +6,8 @@
 #include "engine/formats/shape_file.h"
 #include "engine/geometry/border.h"
 #include "engine/geometry/primitives.h"
+#include "engine/geometry/remesh.h"
+#include "engine/geometry/up_axis.h"
 #include "engine/scene/heights.h"
 #include "engine/scene/limits.h"
 
@@ -128,9 +130,13 @@ Result<Mesh> MakePrimitive(const v1::Primitive& primitive) {
   }
   switch (primitive.kind()) {
     case v1::Primitive::SPHERE:
-      return MakeEllipsoid(Vec3(primitive.radius()), segments, rings);
-    case v1::Primitive::ELLIPSOID:
-      return MakeEllipsoid(ToVec3(primitive.radii()), segments, rings);
+    case v1::Primitive::ELLIPSOID: {
+      const bool sphere = primitive.kind() == v1::Primitive::SPHERE;
+      const Vec3 radii = sphere ? Vec3(primitive.radius()) : ToVec3(primitive.radii());
+      return primitive.base() == v1::Primitive::EVEN
+                 ? MakeEvenEllipsoid(radii, EvenSteps(uint64_t{segments} * rings))
+                 : MakeEllipsoid(radii, segments, rings);
+    }
     case v1::Primitive::TORUS:
       return MakeTorus(primitive.radius(), primitive.tube(), segments, rings);
     case v1::Primitive::BOX:
@@ -148,9 +154,39 @@ std::string LeftOut(size_t count, const std::string& what, const std::string& re
          (count == 1 ? " of the file is" : "s of the file are") + " left out" + remedy;
 }
 
+UpAxis UpOf(const v1::File& file) {
+  switch (file.up()) {
+    case v1::File::Y:
+      return UpAxis::kY;
+    case v1::File::X:
+      return UpAxis::kX;
+    default:
+      return UpAxis::kZ;
+  }
+}
+
+// Long edges divided, slivers gone (File.spacing).
+Result<Geometry> Spaced(Geometry geometry, double spacing) {
+  if (geometry.curve) {
+    Result<Polyline> divided = DivideCurve({std::move(geometry.points), geometry.closed}, spacing);
+    if (!divided) return divided.error();
+    geometry.points = std::move(divided->points);
+    return geometry;
+  }
+  Mesh mesh{std::move(geometry.points), std::move(geometry.face_size),
+            std::move(geometry.face_vertex), std::move(geometry.colors)};
+  Result<Mesh> even = Remesh(mesh, spacing);
+  if (!even) return even.error();
+  Geometry spaced = FromMesh(std::move(*even));
+  spaced.left_out = std::move(geometry.left_out);
+  return spaced;
+}
+
 Result<Geometry> FromFile(const v1::File& file, const std::string& bytes) {
   Result<ShapeFile> read = ReadShape(bytes, file.path().empty() ? file.digest() : file.path());
   if (!read) return read.error();
+  TurnUp(UpOf(file), &read->mesh.points);
+  for (Polyline& curve : read->curves) TurnUp(UpOf(file), &curve.points);
   const size_t faces = read->mesh.FaceCount(), curves = read->curves.size();
   if (file.curve() > curves) {
     return Invalid("there is no curve " + std::to_string(file.curve()) + "; the file has " +
@@ -182,7 +218,9 @@ Result<Geometry> FromFile(const v1::File& file, const std::string& bytes) {
   } else {
     return Invalid(file.path() + " has no faces and no curves");
   }
-  return Checked(std::move(geometry));
+  Result<Geometry> checked = Checked(std::move(geometry));
+  if (!checked || !file.has_spacing()) return checked;
+  return Spaced(std::move(*checked), file.spacing());
 }
 
 }  // namespace

@@ -28,6 +28,9 @@ std::string WhyFixed(const v1::Scene& scene, const Route& route) {
       steps[3].field->name() != "size") {
     return "of heights only the size can change";
   }
+  if (part == "shape" && steps.size() > 3 && steps[2].field->name() == "file") {
+    return "it decides which points there are";
+  }
   return "";
 }
 

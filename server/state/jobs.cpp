@@ -101,11 +101,7 @@ void Machine::Retry(Job& job, Now now) {
     key->failed_by.clear();
     Write(key->row);
     if (key->verdict.standing == Standing::kNoMajority) {
-      for (const ResultRow& result : key->evidence) {
-        Write(DropResult{result.key, result.attempt, result.worker, result.pixel});
-        evidence_of_[result.worker].erase(key->digest);
-      }
-      key->evidence.clear();
+      DropAllEvidence(*key);
     }
     Settle(*key, now);
   }

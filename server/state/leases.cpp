@@ -21,7 +21,9 @@ Answer<std::vector<AttemptId>> Machine::Join(const JoinCall& call, Now now) {
   if (known != nullptr && known->worker != call.worker) {
     return Refusal{Code::kInvalid, "session_id: belongs to worker \"" + known->worker + "\""};
   }
-  const Session before = known == nullptr ? Session{} : *known;
+  if (std::optional<Refusal> twin = RefuseTwin(call, now)) return *std::move(twin);
+  const bool known_before = known != nullptr;
+  const Session before = known_before ? *known : Session{};
   Worker& worker = roster_.AddWorker({call.worker});
 
   // What an older process of this worker held and nobody names was lost with it.
@@ -40,6 +42,7 @@ Answer<std::vector<AttemptId>> Machine::Join(const JoinCall& call, Now now) {
   Session& session = roster_.Open(worker, call.session, now.mono_ms);
   session.last_request = before.last_request;
   session.last_grants = before.last_grants;
+  if (known_before) session.joined_ms = before.joined_ms;
 
   std::vector<AttemptId> adopted;
   for (Attempt& attempt : kept)

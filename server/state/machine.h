@@ -82,6 +82,8 @@ struct JoinCall {
   uint32_t threads = 1;
   std::vector<std::string> tags;
   std::vector<Holding> holdings;
+  std::vector<std::string> ended;  // sessions of this worker that are known to be over
+  int64_t waited_ms = 0;           // since this process first asked
 };
 
 struct Delivery {
@@ -92,6 +94,7 @@ struct Delivery {
   uint64_t triangles = 0;
   uint32_t render_ms = 0;
   bool blob_present = false;
+  uint64_t blob_bytes = 0;
 };
 
 // The state a frame has by its key (M2), and whether its job could use another attempt at it (M5).
@@ -119,6 +122,10 @@ class Machine {
   void Planned(JobId job, uint32_t frame, const Digest& key, Now now);
   void FrameUnplannable(JobId job, uint32_t frame, std::string error, Now now);
   void SceneUnusable(JobId job, std::string error, Now now);
+
+  // --- the store ---
+  // Pictures that are gone: their frames are made again, their keys are known no more (F2).
+  void BlobsLost(const std::vector<Digest>& blobs, Now now);
 
   // --- workers ---
   Answer<std::vector<AttemptId>> Join(const JoinCall& call, Now now);
@@ -157,6 +164,8 @@ class Machine {
   const Key* FindKey(const Digest& key) const;
   const Roster& roster() const { return roster_; }
   const LeaseTable& leases() const { return leases_; }
+  // Frames and jobs looked at so far: what an event costs, whatever the machine's speed. For tests.
+  uint64_t work() const { return work_; }
   // Broken invariants, in words; empty when all is well. Slow: for tests.
   std::vector<std::string> Audit() const;
 
@@ -180,12 +189,21 @@ class Machine {
   void OpenProject(const std::string& project);
   void Finish(Now now);  // after every event
   Attempt EndAttempt(AttemptId id);
+  // twins.cpp
+  std::optional<Refusal> RefuseTwin(const JoinCall& call, Now now);
   // leases.cpp
   enum class Loss : uint8_t { kGivenBack, kWorkerLost };
   void CloseSession(const std::string& session, const std::vector<Holding>& kept, Loss loss,
                     Now now);
   void LoseWorker(Key& key, const Attempt& attempt, Now now);
   void CountFailure(Key& key, const std::string& worker, const std::string& error, bool final);
+  // evidence.cpp
+  void AddEvidence(Key& key, ResultRow row);
+  template <typename Predicate>
+  void DropEvidence(Key& key, Predicate drops);
+  void DropAllEvidence(Key& key);
+  void DropEvidenceOf(Key& key, const std::string& worker);
+  void IndexEvidence(const Key& key, const ResultRow& row);
   // results.cpp
   bool SceneWants(const Digest& scene, uint32_t frame) const;
   bool Wanted(const Key& key) const;
@@ -212,6 +230,8 @@ class Machine {
   std::map<std::string, JobId> by_request_;
   std::map<Digest, Key> keys_;
   std::map<std::string, std::set<Digest>> evidence_of_;  // worker -> keys
+  std::map<Digest, std::set<Digest>> keys_of_blob_;      // blob -> keys with evidence of it
+  std::map<JobId, std::set<JobId>> followers_;           // job -> those submitted to run after it
   std::set<JobId> open_;                                 // not ended
   std::set<JobId> touched_;                              // since the last Finish
   std::map<std::string, double> project_ms_;             // render time charged (F7)
@@ -219,6 +239,7 @@ class Machine {
   uint64_t open_frames_ = 0;
   int64_t held_until_ms_ = 0;  // recovered frames wait until then
   uint64_t arrivals_ = 0;
+  uint64_t work_ = 0;
   bool dispatch_ = false;  // something happened that may let a parked call have work
   Effects effects_;
 };

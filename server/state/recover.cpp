@@ -25,6 +25,7 @@ Job& Machine::AddJob(JobRow row) {
     job.frames[job.order[position]].position = position;
   }
   job.counts.total = job.counts.waiting = total;
+  if (job.row.spec.after != 0) followers_[job.row.spec.after].insert(id);
   touched_.insert(id);
   return job;
 }
@@ -61,7 +62,7 @@ void Machine::Recover(Snapshot snapshot, Now now) {
     Worker& worker = roster_.AddWorker({row.worker});
     ++worker.frames_done;
     worker.render_ms += row.render_ms;
-    evidence_of_[row.worker].insert(row.key);
+    IndexEvidence(key, row);
     key.evidence.push_back(std::move(row));
   }
   for (KeyRow& row : snapshot.keys) {

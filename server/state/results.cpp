@@ -75,10 +75,8 @@ Answer<Outcome> Machine::Complete(const std::string& session_id, const Delivery&
   if (!known && !delivery.blob_present) return Outcome::kMissingBlob;
   end_attempt();
   if (!known) {
-    key->evidence.push_back({delivery.key, delivery.attempt, worker.row.id, delivery.pixel,
-                             delivery.blob, delivery.triangles, delivery.render_ms});
-    Write(key->evidence.back());
-    evidence_of_[worker.row.id].insert(key->digest);
+    AddEvidence(*key, {delivery.key, delivery.attempt, worker.row.id, delivery.pixel, delivery.blob,
+                       delivery.triangles, delivery.render_ms, delivery.blob_bytes});
     Charge(*key, worker, delivery.render_ms);
   }
   Settle(*key, now);
@@ -148,15 +146,10 @@ void Machine::Quarantine(Worker& worker, const std::string& why, Now now) {
     if (session.parked) AnswerParked(session, {}, true);
   }
   // Whatever rests on its word alone is made again (M7).
-  const std::set<Digest> keys = std::move(evidence_of_[worker.row.id]);
-  evidence_of_.erase(worker.row.id);
+  const std::set<Digest> keys = evidence_of_[worker.row.id];
   for (const Digest& digest : keys) {
     Key& key = keys_.at(digest);
-    std::erase_if(key.evidence, [&](const ResultRow& result) {
-      if (result.worker != worker.row.id) return false;
-      Write(DropResult{result.key, result.attempt, result.worker, result.pixel});
-      return true;
-    });
+    DropEvidenceOf(key, worker.row.id);
     Settle(key, now);
   }
   for (const Digest& digest : keys) RejectLiars(keys_.at(digest), now);

@@ -32,7 +32,7 @@ Session& Roster::Open(Worker& worker, const std::string& session, int64_t now_ms
   Session& opened = sessions_[session];
   opened.id = session;
   opened.worker = worker.row.id;
-  opened.heard_ms = now_ms;
+  opened.joined_ms = opened.heard_ms = now_ms;
   return opened;
 }
 

@@ -32,6 +32,7 @@ struct Worker {
   std::string session;  // empty: gone
   uint64_t frames_done = 0;
   uint64_t render_ms = 0;
+  std::optional<int64_t> refused_ms;  // when the log last said that another was refused its name
 
   bool alive() const { return !session.empty(); }
   bool usable() const { return alive() && !row.draining && !row.quarantined; }
@@ -48,6 +49,7 @@ struct Parked {
 struct Session {
   std::string id;
   std::string worker;
+  int64_t joined_ms = 0;
   int64_t heard_ms = 0;
   uint64_t last_request = 0;
   std::vector<Grant> last_grants;

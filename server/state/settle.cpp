@@ -56,13 +56,14 @@ void Machine::SetFrame(Job& job, uint32_t index, FrameState state) {
     Write(FrameRow{job.row.id, job.FrameNumber(index), frame.key->digest, false, {}});
   }
   if (state == FrameState::kFailed) {
-    job.failed.insert(index);
+    job.failed.emplace_hint(job.failed.end(), index);  // mostly in rising order
   } else {
     job.failed.erase(index);
   }
   frame.state = state;
   touched_.insert(job.row.id);
-  effects_.changed[job.row.id].insert(index);
+  std::set<uint32_t>& changed = effects_.changed[job.row.id];
+  changed.emplace_hint(changed.end(), index);
 }
 
 Attempt Machine::EndAttempt(AttemptId id) {
@@ -80,6 +81,7 @@ void Machine::Settle(Key& key, Now) {
 }
 
 void Machine::SettleFrame(const Key& key, FrameRef ref) {
+  ++work_;
   Job& job = jobs_.at(ref.job);
   SetFrame(job, ref.index, StateFor(job, key));
   const uint32_t position = job.frames[ref.index].position;
@@ -94,6 +96,7 @@ void Machine::SettleJobs(Now now) {
   while (!touched_.empty()) {
     Job& job = jobs_.at(*touched_.begin());
     touched_.erase(touched_.begin());
+    ++work_;
     const JobId id = job.row.id;
     if (job.ended() != (job.row.ended_unix_ms != 0)) {
       job.row.ended_unix_ms = job.ended() ? std::max<int64_t>(now.unix_ms, 1) : 0;
@@ -105,8 +108,8 @@ void Machine::SettleJobs(Now now) {
       open_frames_ -= job.counts.total;
       --open_of_project_[job.row.spec.project];
       // Jobs that wait for this one may be planned now.
-      for (const JobId other : open_) {
-        if (jobs_.at(other).row.spec.after == id) touched_.insert(other);
+      if (const auto place = followers_.find(id); place != followers_.end()) {
+        touched_.insert(place->second.begin(), place->second.end());
       }
     } else if (!job.ended() && open_.insert(id).second) {
       open_frames_ += job.counts.total;

@@ -80,6 +80,7 @@ struct ResultRow {
   Digest blob;
   uint64_t triangles = 0;
   uint32_t render_ms = 0;
+  uint64_t bytes = 0;  // of the blob; 0: not known
 };
 
 struct KeyRow {

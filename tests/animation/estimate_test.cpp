@@ -97,6 +97,23 @@ TEST(EstimateTest, LeavesOfMeshesAreEstimatedWithinAFactorOfThree) {
   std::printf("estimates lie between %.3g and %.3g times what is made\n", tally.least, tally.most);
 }
 
+// A median of a triangle without area is never long enough to be done with it.
+TEST(EstimateTest, TrianglesWithoutAreaHaveAnEstimateToo) {
+  const auto animation = Animate(
+      Object("mesh { point {} point { x: 3 } point { x: 1 } point { y: 1 } face { v: [1, 2, 3] } "
+             "face { v: [1, 2, 4] } }",
+             "method: \"surface\" epsilon: .05"));
+  ASSERT_NE(animation, nullptr);
+  AssetSet assets;
+  const v1::FrameScene frame = FrameOf(*animation, 1, &assets);
+  const auto estimate = EstimateFrame(frame, &assets);
+  ASSERT_TRUE(estimate.ok());
+  const double made = MadeOf(frame.object(0));
+  EXPECT_GT(made, 1000);
+  EXPECT_GT(estimate->all.leaves, .5 * made);
+  EXPECT_LT(estimate->all.leaves, 4 * made);
+}
+
 TEST(EstimateTest, SegmentsOfCurvesAreEstimatedWithinAFactorOfThree) {
   Tally tally;
   for (const char* const curve : kCurves) {

@@ -172,6 +172,39 @@ TEST(CliTest, ImportWritesASceneThatRenders) {
   EXPECT_EQ(run.code, 0) << run.err;
 }
 
+TEST(CliTest, ImportWritesOverNothingUnlessTold) {
+  const ScratchFolder folder;
+  const std::string shape = folder.Write("shape.std", ReadAll(Example("data/taiwan.std")));
+  const std::string scene = folder.Write("mine.scene", "# my own work\n");
+  const ProgramRun refused = RunFjord({"import", shape, "-o", scene});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("mine.scene"), HasSubstr("--force")));
+  EXPECT_EQ(ReadAll(scene), "# my own work\n");
+  EXPECT_EQ(RunFjord({"import", shape, "-o", scene, "--force"}).code, 0);
+  EXPECT_THAT(ReadAll(scene), HasSubstr("method: \"coast\""));
+  const ProgramRun itself = RunFjord({"import", shape, "-o", shape, "--force"});
+  EXPECT_EQ(itself.code, 1);
+  EXPECT_EQ(ReadAll(shape), ReadAll(Example("data/taiwan.std")));
+}
+
+TEST(CliTest, ImportTurnsTheAxisThatIsUp) {
+  const ScratchFolder folder;
+  const std::string shape = folder.Write(
+      "hill.obj",
+      "v 0 0 0\nv 0 0 4\nv 4 0 4\nv 4 0 0\nv 2 1 2\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+  const ProgramRun asked = RunFjord({"import", shape, "-o", folder / "z.scene"});
+  EXPECT_EQ(asked.code, 0);
+  EXPECT_THAT(asked.err, HasSubstr("--up y"));
+  const ProgramRun turned = RunFjord({"import", shape, "--up", "Y", "-o", folder / "y.scene"});
+  EXPECT_EQ(turned.code, 0) << turned.err;
+  EXPECT_EQ(turned.err.find("--up"), std::string::npos);
+  EXPECT_THAT(ReadAll(folder / "y.scene"), HasSubstr(" up: Y"));
+  const std::string made = folder / "made.obj";
+  EXPECT_EQ(RunFjord({"fractalize", folder / "y.scene", "--frame", "1", "-o", made}).code, 0);
+  EXPECT_THAT(ReadAll(made), HasSubstr("\nv 2 -2 1\n"));
+  EXPECT_EQ(RunFjord({"import", shape, "--up", "w", "-o", folder / "w.scene"}).code, 2);
+}
+
 TEST(CliTest, C47_FractalizeRecordsSeedAndParameters) {
   const ScratchFolder folder;
   const std::string scene = folder.Write("tiny.scene", TinyScene(2));

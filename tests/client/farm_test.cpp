@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
+#include <fstream>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -89,6 +91,65 @@ TEST_F(FarmTest, G56_WorkersShareTheFramesAndTheirTimesAreRecorded) {
     frames += worker["frames_done"].get<uint64_t>();
   }
   EXPECT_EQ(frames, 60u);
+}
+
+// Case: a stored picture was empty, or gone, and its job as dead as every later one.
+TEST_F(FarmTest, F2_DamagedPicturesAreMadeAgain) {
+  ASSERT_NO_FATAL_FAILURE(StartFarm(1));
+  const std::string job = nlohmann::json::parse(Fjord({"submit", scene_, "--json"}).out)["id"];
+  const auto pictures = [&] {
+    std::vector<std::string> found;
+    for (const auto& file : fs::recursive_directory_iterator(folder_ / "data/blobs")) {
+      if (!file.is_regular_file()) continue;
+      if (ReadAll(file.path()).starts_with("\x89PNG")) found.push_back(file.path());
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+  const auto done = [&](const std::string& which) {
+    return WaitUntil([&] {
+      const auto json = nlohmann::json::parse(Fjord({"status", which, "--json"}).out);
+      return json["state"] == "done" && json["frames"]["done"] == 12;
+    });
+  };
+  ASSERT_EQ(RunFjord({"render", scene_, "-o", folder_ / "here"}).code, 0);
+  ASSERT_TRUE(done(job));
+  std::vector<std::string> stored = pictures();
+  ASSERT_EQ(stored.size(), 12u);
+  fs::resize_file(stored[0], 0);
+  fs::resize_file(stored[1], 40);
+  std::string bytes = ReadAll(stored[2]);
+  bytes[bytes.size() / 2] ^= 1;
+  std::ofstream(stored[2], std::ios::binary) << bytes;
+  fs::remove(stored[3]);
+  const ProgramRun fetched = Fjord({"fetch", job, "-o", folder_ / "out", "--json"});
+  EXPECT_EQ(fetched.code, 1);
+  EXPECT_EQ(nlohmann::json::parse(fetched.out)["fetched"], 8) << "the others come";
+  EXPECT_EQ(nlohmann::json::parse(fetched.out)["lost"], 4);
+  EXPECT_THAT(fetched.err, HasSubstr("gone or damaged"));
+  ASSERT_TRUE(done(job));
+  EXPECT_EQ(Fjord({"fetch", job, "-o", folder_ / "out"}).code, 0);
+  EXPECT_EQ(Digests(folder_ / "out"), Digests(folder_ / "here"));
+
+  // A new job does not count on what is dead.
+  fs::resize_file(stored[4], 0);
+  fs::remove(stored[5]);
+  const auto second = nlohmann::json::parse(Fjord({"submit", scene_, "--json"}).out);
+  ASSERT_TRUE(done(second["id"]));
+  EXPECT_EQ(
+      nlohmann::json::parse(Fjord({"status", second["id"], "--json"}).out)["frames"]["cached"], 10);
+  EXPECT_EQ(Fjord({"fetch", second["id"], "-o", folder_ / "second"}).code, 0);
+
+  // Nor does a coordinator that starts.
+  farm_->Signal(SIGTERM);
+  EXPECT_EQ(farm_->Wait().code, 0);
+  fs::resize_file(stored[6], 30);
+  fs::remove(stored[7]);
+  ASSERT_NO_FATAL_FAILURE(StartFarm(1));
+  ASSERT_TRUE(WaitUntil([&] { return pictures().size() == 12; }));
+  ASSERT_TRUE(done(job));
+  EXPECT_EQ(Fjord({"fetch", job, "-o", folder_ / "third"}).code, 0);
+  EXPECT_EQ(Digests(folder_ / "third"), Digests(folder_ / "here"));
 }
 
 TEST_F(FarmTest, JobsCanBePausedResumedAndCancelled) {

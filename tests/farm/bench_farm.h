@@ -95,16 +95,22 @@ class BenchFarm {
                : 0;
   }
 
-  // A worker and its one session share a name; `process` tells restarts apart.
+  // A worker and its one session share a name; `process` tells restarts apart. The one before is
+  // known to be over.
   std::vector<AttemptId> Join(const std::string& worker, std::vector<Holding> holdings = {},
                               const std::string& process = "") {
     JoinCall call;
     call.worker = worker;
     call.session = worker + process;
     call.holdings = std::move(holdings);
+    const Worker* known = machine_->roster().FindWorker(worker);
+    if (known != nullptr && known->alive()) call.ended = {known->session};
+    return std::get<std::vector<AttemptId>>(Join(call));
+  }
+  Answer<std::vector<AttemptId>> Join(const JoinCall& call) {
     const auto answer = machine_->Join(call, now());
     Pump();
-    return std::get<std::vector<AttemptId>>(answer);
+    return answer;
   }
 
   // One grant, or none at once.
@@ -163,6 +169,11 @@ class BenchFarm {
   }
   void Command(JobId job, JobCommand command, int32_t priority = 0) {
     (void)machine_->Command(job, command, priority, now());
+    Pump();
+  }
+
+  void LoseBlob(const Digest& blob) {
+    machine_->BlobsLost({blob}, now());
     Pump();
   }
 

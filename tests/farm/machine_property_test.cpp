@@ -28,7 +28,7 @@ class Story {
   explicit Story(bool liars) : liars_(liars) {}
 
   void Step() {
-    const int what = Pick(0, 16);
+    const int what = Pick(0, 17);
     switch (what) {
       case 0:
         Submit();
@@ -63,6 +63,9 @@ class Story {
         break;
       case 15:
         Restart();
+        break;
+      case 16:
+        LosePicture();
         break;
     }
     RC_ASSERT(!testing::Test::HasFailure());
@@ -126,7 +129,24 @@ class Story {
         holdings.push_back(BenchFarm::HoldingOf(held.grant));
       }
     }
+    if (Pick(0, 3) == 0) return JoinAsTwin(worker, process);
     farm_.Join(worker, holdings, process);
+  }
+  // Without knowing whether the session before is over: what that one holds stays its own.
+  void JoinAsTwin(const std::string& name, const std::string& process) {
+    JoinCall call;
+    call.worker = name;
+    call.session = name + process;
+    call.waited_ms = Pick(0, 2'000);
+    const server::Worker* known = farm_.machine().roster().FindWorker(name);
+    const std::string before = known == nullptr ? "" : known->session;
+    const size_t held = farm_.machine().leases().CountHeldBy(before);
+    const auto answer = farm_.Join(call);
+    RC_ASSERT(std::holds_alternative<Refusal>(answer) ==
+              (!before.empty() && before != call.session));
+    if (!std::holds_alternative<Refusal>(answer)) return;
+    RC_ASSERT(farm_.machine().roster().FindWorker(name)->session == before);
+    RC_ASSERT(farm_.machine().leases().CountHeldBy(before) == held);
   }
   void Acquire() {
     const std::string session = Worker() + std::to_string(Pick(0, 2));
@@ -146,6 +166,18 @@ class Story {
     if (outcome == nullptr || lie) return;
     if (*outcome == Outcome::kCommitted || *outcome == Outcome::kDuplicate)
       answered_.insert(grant.key);
+  }
+  // The store has lost it; what was answered of its key rests on nothing any more.
+  void LosePicture() {
+    if (answered_.empty()) return;
+    const Digest key = *std::next(answered_.begin(), Pick<size_t>(0, answered_.size()));
+    const Key* known = farm_.machine().FindKey(key);
+    if (known->evidence.empty()) return;
+    const Digest blob = known->evidence.front().blob;
+    farm_.LoseBlob(blob);
+    RC_ASSERT(std::none_of(known->evidence.begin(), known->evidence.end(),
+                           [&](const ResultRow& row) { return row.blob == blob; }));
+    if (known->evidence.empty()) answered_.erase(key);
   }
   void Restart() {
     std::map<JobId, Counts> before;

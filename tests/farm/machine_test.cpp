@@ -167,6 +167,71 @@ TEST_F(MachineTest, F5_StandingStillCountsAsAFailure) {
   EXPECT_EQ(farm_.KeyAt(grant.key).row.failures, 1u);
 }
 
+TEST_F(MachineTest, F5_AWorkerIdHasOneLivingSession) {
+  farm_.Submit("a", 2);
+  farm_.Join("twin", {}, "1");
+  const Grant held = *farm_.Acquire("twin1");
+  JoinCall second;
+  second.worker = "twin";
+  second.session = "twin2";
+  second.host = "b";
+  const auto refusal = [&](int64_t waited_ms) {
+    second.waited_ms = waited_ms;
+    const auto answer = farm_.Join(second);
+    const Refusal* refused = std::get_if<Refusal>(&answer);
+    return refused == nullptr ? std::optional<Code>() : refused->code;
+  };
+  EXPECT_EQ(refusal(0), Code::kAborted) << "nobody knows yet whether the first lives";
+  farm_.Pass(3'000);
+  EXPECT_EQ(refusal(3'000), Code::kAborted) << "it was heard of when the second first asked";
+  EXPECT_TRUE(farm_.Renew("twin1", held)) << "nothing is taken from it";
+  farm_.Pass(100);
+  const size_t notices = farm_.notices().size();
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(refusal(3'100), Code::kExists) << "it is alive";
+  EXPECT_EQ(farm_.notices().size(), notices + 1) << "said once a minute";
+  // The first dies: its name is free after a term, or at once for who knows that it is dead.
+  farm_.Pass(9'800);
+  EXPECT_EQ(refusal(9'800), Code::kAborted);
+  second.ended = {"nobody", "twin1"};
+  EXPECT_EQ(refusal(9'800), std::nullopt);
+  EXPECT_FALSE(farm_.Renew("twin1", held));
+  EXPECT_EQ(farm_.KeyAt(held.key).row.lost, 1u);
+  second.ended.clear();
+  second.session = "twin3";
+  farm_.Pass(10'000);
+  EXPECT_EQ(refusal(0), std::nullopt);
+}
+
+TEST_F(MachineTest, F2_ALostPictureIsMadeAgain) {
+  const JobId job = farm_.Submit("a", 2), other = farm_.Submit("b", 1);
+  farm_.Join("w");
+  while (const auto grant = farm_.Acquire("w")) farm_.Complete("w", *grant);
+  const JobId again = farm_.Submit("a", 2), cancelled = farm_.Submit("a", 3);
+  farm_.Command(cancelled, JobCommand::kCancel);
+  EXPECT_EQ(farm_.CountsOf(again), (Counts{2, 0, 0, 2, 2, 0}));
+  const Digest blob = farm_.KeyAt(KeyOf("a", 2)).result()->blob;
+  farm_.LoseBlob(Name("nobody's"));
+  EXPECT_EQ(farm_.StateOf(job), JobState::kDone);
+  farm_.LoseBlob(blob);
+  farm_.LoseBlob(blob);
+  for (const JobId id : {job, again}) {
+    EXPECT_EQ(farm_.StateOf(id), JobState::kRunning);
+    EXPECT_EQ(farm_.FrameOf(id, 2), S::kWaiting);
+    EXPECT_EQ(farm_.FrameOf(id, 1), S::kDone);
+  }
+  EXPECT_EQ(farm_.StateOf(other), JobState::kDone);
+  EXPECT_EQ(farm_.StateOf(cancelled), JobState::kCancelled);
+  farm_.Restart();
+  farm_.Pass(10'000);
+  EXPECT_EQ(farm_.FrameOf(job, 2), S::kWaiting) << "the journal does not bring it back";
+  EXPECT_EQ(farm_.CountsOf(again).cached, 1u) << "what is made again was not served from the store";
+  EXPECT_EQ(farm_.CountsOf(farm_.Submit("a", 2)).cached, 1u) << "nor for a new job";
+  farm_.Join("w");
+  EXPECT_EQ(farm_.Complete("w", *farm_.Acquire("w")), Outcome::kCommitted);
+  EXPECT_EQ(farm_.StateOf(job), JobState::kDone);
+  EXPECT_EQ(farm_.StateOf(again), JobState::kDone);
+}
+
 TEST_F(MachineTest, F3_DisputeIsDecidedByAThirdWorker) {
   const JobId job = farm_.Submit("a", 3);
   for (const char* worker : {"liar", "x", "y"}) farm_.Join(worker);

@@ -20,7 +20,8 @@ namespace fjord::farm_test {
 class Process {
  public:
   Process(const std::vector<std::string>& words,
-          const std::vector<std::pair<std::string, std::string>>& environment = {}) {
+          const std::vector<std::pair<std::string, std::string>>& environment = {},
+          const std::string& errors = "") {  // a file for its standard error; empty: this one's
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) std::abort();
     std::vector<char*> arguments;
@@ -36,6 +37,9 @@ class Process {
     if (pid_ == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       dup2(ends[1], STDOUT_FILENO);
+      if (!errors.empty()) {
+        dup2(open(errors.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600), STDERR_FILENO);
+      }
       execve(arguments[0], arguments.data(), pointers.data());
       _exit(127);
     }
@@ -62,6 +66,7 @@ class Process {
     }
     return status_;
   }
+  pid_t pid() const { return pid_; }
   // Empty: the process ended or closed its output, or said nothing for so long.
   std::string ReadLine(int timeout_ms = 30'000) {
     std::string line;

@@ -1,7 +1,5 @@
 // The programs themselves: coordinator and workers as processes, killed and restarted; and the
 // crash sweep. What the farm delivers equals what the engine renders directly.
-#include "process.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,33 +12,12 @@
 #include "engine/animation/inbetween.h"
 #include "engine/render/frame_renderer.h"
 #include "engine/scene/load.h"
+#include "programs.h"
 #include "talk.h"
 #include "temp_dir.h"
 
 namespace fjord::farm_test {
 namespace {
-
-// FJORD_TEST_LOG=debug shows what the programs say.
-const std::string kLog =
-    std::getenv("FJORD_TEST_LOG") != nullptr ? std::getenv("FJORD_TEST_LOG") : "err";
-
-std::string SceneText(int frames, int width, int height, int samples) {
-  return "name: \"farm\"\n"
-         "output { frames: " +
-         std::to_string(frames) + " width: " + std::to_string(width) +
-         " height: " + std::to_string(height) + " samples: " + std::to_string(samples) +
-         " }\n"
-         "sea { level: 0 }\n"
-         "objects {\n"
-         "  name: \"island\"\n"
-         "  key { frame: 1 shape { primitive { kind: GRID size { x: 2 y: 2 } segments: 2 rings: 2 "
-         "} } }\n"
-         "  key { frame: " +
-         std::to_string(std::max(frames, 2)) +
-         " shape { primitive { kind: GRID size { x: 3 y: 1 } segments: 2 rings: 2 } } }\n"
-         "  fractal { method: \"surface\" seed: 5 H: 0.7 }\n"
-         "}\n";
-}
 
 // A scene and what the engine makes of it without any farm.
 struct Truth {
@@ -67,38 +44,6 @@ Truth RenderDirectly(int frames, int width, int height, int samples = 1) {
     truth.pictures[frame] = *EncodePicture(rendered->picture, *DescribeFrame(*scene));
   }
   return truth;
-}
-
-class Coordinator {
- public:
-  explicit Coordinator(std::string data) : data_(std::move(data)) {}
-
-  // False: it ended before it listened.
-  bool Start(const std::vector<std::pair<std::string, std::string>>& environment = {}) {
-    process_.emplace(std::vector<std::string>{FJORD_SERVER_PROGRAM, "--listen",
-                                              "127.0.0.1:" + port_, "--data", data_, "--log", kLog,
-                                              "--lease-term-ms", term_, "--renew-ms", "100"},
-                     environment);
-    const std::string line = process_->ReadLine();
-    const size_t colon = line.rfind(':');
-    if (line.rfind("listening on 127.0.0.1:", 0) != 0) return false;
-    port_ = line.substr(colon + 1);
-    return true;
-  }
-  void Term(int ms) { term_ = std::to_string(ms); }
-  std::string address() const { return "127.0.0.1:" + port_; }
-  Process& process() { return *process_; }
-
- private:
-  const std::string data_;
-  std::string port_ = "0";
-  std::string term_ = "1000";
-  std::optional<Process> process_;
-};
-
-std::unique_ptr<Process> StartWorker(const std::string& address, const std::string& id) {
-  return std::make_unique<Process>(std::vector<std::string>{
-      FJORD_WORKER_PROGRAM, "--server", address, "--threads", "1", "--id", id, "--log", kLog});
 }
 
 v1::SubmitRequest Request(const std::string& scene_digest) {

@@ -1,11 +1,16 @@
 // The journal and the blob store: what is in them after they were closed, cut, filled or damaged.
 #include <gtest/gtest.h>
+#include <soci/soci-config.h>
+#undef SOCI_HAVE_BOOST
+#include <soci/soci.h>
+#include <soci/sqlite3/soci-sqlite3.h>
 #include <sys/resource.h>
 
 #include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <future>
 
 #include "server/blob_store.h"
@@ -121,6 +126,34 @@ TEST(JournalTest, F8_DamageAndOtherVersionsAreNamed) {
   EXPECT_NE(damaged.error().ToString().find(path), std::string::npos);
   EXPECT_NE(damaged.error().message.find("not a database"), std::string::npos);
   EXPECT_NE(damaged.error().message.find("move it aside"), std::string::npos) << "what to do";
+}
+
+// As the first version left it: the columns that came later get their defaults.
+TEST(JournalTest, F4_AJournalOfVersion1IsTakenOver) {
+  TempDir dir;
+  {
+    const auto journal = OpenIn(dir);
+    ResultRow result{Sha256Of("k"), {3, 4}, "w", Sha256Of("p"), Sha256Of("b"), 5, 17, 99};
+    const std::vector<Record> records = {SomeJob(1), result};
+    ASSERT_TRUE(journal->Append(records).ok());
+  }
+  {
+    soci::session sql(soci::sqlite3, "dbname=\"" + dir.path() + "/" + kJournalFile + "\"");
+    for (const char* statement : {"ALTER TABLE result DROP COLUMN bytes",
+                                  "UPDATE meta SET value = '1' WHERE name = 'schema'"}) {
+      sql << statement;
+    }
+  }
+  for (int start = 0; start < 2; ++start) {
+    const auto journal = OpenIn(dir);
+    const Result<Snapshot> snapshot = journal->Load();
+    ASSERT_TRUE(snapshot.ok()) << snapshot.error().ToString();
+    ASSERT_EQ(snapshot->jobs.size(), 1u);
+    EXPECT_EQ(snapshot->jobs[0].spec.name, "näme");
+    ASSERT_EQ(snapshot->results.size(), 1u);
+    EXPECT_EQ(snapshot->results[0].render_ms, 17u);
+    EXPECT_EQ(snapshot->results[0].bytes, 0u);
+  }
 }
 
 class CountingJournal : public Journal {
@@ -258,6 +291,49 @@ TEST(BlobStoreTest, F8_FullDiskIsAClearErrorAndLeavesNothing) {
   EXPECT_NE(put.error().message.find("cannot store blob"), std::string::npos);
   EXPECT_EQ(FilesIn(dir.path()), 0u);
   EXPECT_TRUE(opened.value()->Put(Sha256Of(bytes), bytes).ok()) << "and works again with room";
+}
+
+TEST(BlobStoreTest, F2_B4_WhatIsDamagedOrGoneIsNoticedAndCanBePutAgain) {
+  TempDir dir;
+  const std::string bytes = "the bytes of a picture";
+  const Digest digest = Sha256Of(bytes), other = Sha256Of("another's");
+  const auto path = [&](const Digest& blob) {
+    return dir.path() + "/blobs/" + blob.Hex().substr(0, 2) + "/" + blob.Hex().substr(2);
+  };
+  const std::vector<std::function<void()>> harms = {
+      [&] { fs::resize_file(path(digest), 0); },
+      [&] { fs::resize_file(path(digest), 5); },
+      [&] { std::ofstream(path(digest)) << "the bytes of a PICTURE"; },
+      [&] { fs::remove(path(digest)); },
+  };
+  for (const bool after_restart : {false, true}) {
+    for (size_t harm = 0; harm < harms.size(); ++harm) {
+      SCOPED_TRACE(harm);
+      auto store = std::move(BlobStore::Open(dir.path(), 1000)).value();
+      ASSERT_TRUE(store->Put(digest, bytes).ok());
+      ASSERT_TRUE(store->Put(other, "another's").ok());
+      EXPECT_TRUE(store->Check(digest));
+      if (after_restart) store.reset();
+      harms[harm]();
+      if (after_restart) store = std::move(BlobStore::Open(dir.path(), 1000)).value();
+      std::vector<Digest> lost;
+      store->OnLost([&](const Digest& blob) { lost.push_back(blob); });
+      if (harm % 2 == 0) {
+        EXPECT_FALSE(store->Check(digest));
+      } else {
+        const auto got = store->Get(digest, 1000);
+        ASSERT_FALSE(got.ok());
+        EXPECT_EQ(got.error().code, ErrorCode::kNotFound);
+      }
+      EXPECT_FALSE(store->Has(digest));
+      EXPECT_EQ(lost.size(), after_restart && harm == 3 ? 0u : 1u);
+      EXPECT_TRUE(store->Check(other));
+      EXPECT_EQ(store->Put(digest, bytes).value(), false) << "it was not there";
+      EXPECT_EQ(store->Get(digest, 1000).value(), bytes);
+      EXPECT_TRUE(store->Check(digest, BlobStore::Reading::kAnew));
+      EXPECT_EQ(store->SizeOf(digest), bytes.size());
+    }
+  }
 }
 
 TEST(BlobStoreTest, F2_ManyAtOncePutOneBlob) {

@@ -10,7 +10,9 @@
 #include <mutex>
 #include <set>
 
+#include "temp_dir.h"
 #include "worker/held.h"
+#include "worker/identity.h"
 #include "worker/retry.h"
 
 namespace fjord::worker {
@@ -108,6 +110,8 @@ struct Script {
   uint64_t next = 1, last = 0;
   std::map<uint64_t, std::string> done;
   std::set<uint64_t> failed, stored, held_at_join;
+  std::vector<std::string> ended;  // as Join names them
+  std::vector<uint32_t> waited;    // by each Join
   int joins = 0, leaves = 0, renewals = 0;
   std::deque<StatusCode> acquire_faults, complete_faults, put_faults, join_faults;
   bool forget_session = false;
@@ -130,6 +134,8 @@ class ScriptLeases : public LeaseClient {
   explicit ScriptLeases(Script& script) : script_(script) {}
   Reply<v1::JoinResponse> Join(const v1::JoinRequest& request) override {
     const std::lock_guard lock(script_.mutex);
+    script_.ended.assign(request.ended().begin(), request.ended().end());
+    script_.waited.push_back(request.waited_ms());
     if (const auto fault = script_.Fault(script_.join_faults); !fault.ok()) return {fault, {}};
     ++script_.joins;
     script_.forget_session = false;
@@ -314,6 +320,42 @@ TEST_F(WorkerTest, F3_ARefusalEndsTheWorkerWithItsMessage) {
   const Result<> ended = worker_->Wait();
   ASSERT_FALSE(ended.ok());
   EXPECT_NE(ended.error().message.find("on order"), std::string::npos);
+}
+
+TEST_F(WorkerTest, F5_ANameInUseIsWaitedForAndGivenUpOnceItsHolderIsHeardOf) {
+  script_.join_faults = {StatusCode::ABORTED, StatusCode::ABORTED, StatusCode::ALREADY_EXISTS};
+  Start(1, 1);
+  ASSERT_FALSE(worker_->Wait().ok());
+  ASSERT_EQ(script_.waited.size(), 3u);
+  EXPECT_EQ(script_.waited[0], 0u);
+  EXPECT_GE(script_.waited[1], 25u) << "counted from the first try";
+  EXPECT_GE(script_.waited[2], script_.waited[1] + 50);
+  EXPECT_TRUE(worker_->Stop()) << "no session of its own is left behind";
+}
+
+TEST(SessionNoteTest, F5_KnowsTheSessionsThatAreOverAndOnlyThose) {
+  farm_test::TempDir folder;
+  setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
+  const std::string one = NewSessionName(), two = NewSessionName(), three = NewSessionName();
+  EXPECT_NE(one, two);
+  auto note = SessionNote::Take("w", "host:1", one);
+  ASSERT_NE(note, nullptr);
+  EXPECT_TRUE(note->ended().empty());
+  EXPECT_EQ(SessionNote::Take("w", "host:1", two), nullptr) << "its holder is alive";
+  EXPECT_TRUE(SessionNote::Take("w", "host:2", two)->ended().empty()) << "of another farm";
+  EXPECT_TRUE(SessionNote::Take("v", "host:1", two)->ended().empty());
+  note.reset();
+  note = SessionNote::Take("w", "host:1", two);
+  EXPECT_EQ(note->ended(), (std::vector<std::string>{one}));
+  note.reset();
+  note = SessionNote::Take("w", "host:1", three);
+  EXPECT_EQ(note->ended(), (std::vector<std::string>{one, two}));
+  note->Forget();
+  note.reset();
+  EXPECT_TRUE(SessionNote::Take("w", "host:1", one)->ended().empty());
+  for (int i = 0; i < 40; ++i) SessionNote::Take("x", "host:1", NewSessionName());
+  EXPECT_EQ(SessionNote::Take("x", "host:1", one)->ended().size(), 15u);
+  unsetenv("XDG_RUNTIME_DIR");
 }
 
 TEST(ChildRendererTest, F5_ACrashIsTheFramesAndNamed) {

@@ -3,6 +3,7 @@
 
 #include "engine/formats/import.h"
 #include "engine/scene/load.h"
+#include "engine/scene/shapes.h"
 #include "tests/formats/expect_error.h"
 #include "tests/scene/entry_values.h"
 
@@ -84,6 +85,21 @@ TEST(ImportSceneTest, EveryCurveOfAFileBecomesAnObject) {
   ASSERT_EQ(obj.objects_size(), 2);
   EXPECT_EQ(obj.objects(0).shape().file().curve(), 0u);
   EXPECT_EQ(obj.objects(1).shape().file().curve(), 1u);
+}
+
+TEST(ImportSceneTest, WhatImportSaysOfTheFileArrives) {
+  const std::string bytes = "v 0 0 0\nv 0 0 1\nv 9 0 1\nv 9 0 0\nl 1 2 3 4 1\n";
+  const ShapeFile shape = ReadShape(bytes, "a.obj").value();
+  const std::string text =
+      SceneTextFromShape(shape, "a.obj", nullptr, "", {UpAxis::kY, 2.}).value();
+  const LoadResult result = LoadSceneText(
+      text, "imported.scene", [&](const v1::File&) { return Result<std::string>(bytes); });
+  ASSERT_TRUE(result.errors.empty()) << result.errors[0].ToString() << "\n" << text;
+  const Geometry geometry =
+      DecodeShape(result.loaded.scene.objects(0).shape(), result.loaded.assets).value();
+  ASSERT_EQ(geometry.points.size(), 1u + 5 + 1 + 5);
+  EXPECT_EQ(geometry.points[1], Vec3(0, -1, 0));
+  EXPECT_NEAR(geometry.points[2].x, 1.8, 1e-15);
 }
 
 // Law AFFINE: k^(1-H), H .7.

@@ -57,12 +57,45 @@ TEST(ObjFileTest, LinesOfTwoPointsJoin) {
 
 TEST(ObjFileTest, CommentsNeverContinue) {
   const std::string tail = "v 1 0 0\nv 1 1 0\nf 1 2 3\n";
-  for (const char* head : {"# model C:\\work\\\nv 0 0 0\n", "v 0 0 0 # a path \\\n",
-                           "v 0 0 \\ # of three\n0\n", "#\\\r\nv 0 0 0\r\n"}) {
+  for (const char* head :
+       {"# model C:\\work\\\nv 0 0 0\n", "v 0 0 0 # a path \\\n", "v 0 0 \\ # of three\n0\n",
+        "v 0 0 0#1.#IND\n", "v 0 0 0.#In hand\n", "#\\\r\nv 0 0 0\r\n"}) {
     SCOPED_TRACE(head);
     const ShapeFile shape = Read(head + tail).value();
     EXPECT_EQ(shape.mesh.points, (std::vector<Vec3>{Vec3(0), Vec3(1, 0, 0), Vec3(1, 1, 0)}));
   }
+}
+
+// A folder's name may end in a backslash; the statement after it is no part of the name.
+TEST(ObjFileTest, NamesThatEndInABackslashSwallowNoStatement) {
+  const std::string tail = "v 1 0 0\nv 1 1 0\nf 1 2 3\n";
+  for (const char* head :
+       {"mtllib C:\\maps\\\nv 0 0 0\n", "mtllib C:\\my maps\\ \nv 0 0 0\n",
+        "usemtl a\\\r\nv 0 0 0\r\n", "o D:\\\nv 0 0 0\n", "maplib \\\n\n# v\nv 0 0 0\n",
+        "g left \\\nright\nv 0 0 0\n", "g a \\\n  b \\\n c\nv 0 0 0\n",
+        "usemap C:\\\nusemtl C:\\\n\tv 0 0 0\n"}) {
+    SCOPED_TRACE(head);
+    const ShapeFile shape = Read(head + tail).value();
+    EXPECT_EQ(shape.mesh.points, (std::vector<Vec3>{Vec3(0), Vec3(1, 0, 0), Vec3(1, 1, 0)}));
+  }
+  EXPECT_TRUE(Read("v 0 0 0\n" + tail + "mtllib C:\\"));
+}
+
+TEST(ObjFileTest, WhatIsPassedOverAndDrawsIsNoted) {
+  const ShapeFile shape =
+      Read("v 0 0 0\nv 1 0 0\nv 0 1 0\np 1\np 2 3\nvp 0.5 1\ncstype bezier\ndeg 3\nend\nf 1 2 3\n")
+          .value();
+  EXPECT_THAT(
+      shape.notes,
+      testing::ElementsAre("a.obj:4:1: note: points (p) are passed over: they are no curve",
+                           "a.obj:6:1: note: vp belongs to free-form curves and is passed over"));
+  EXPECT_TRUE(Read("mtllib a\ns 1\ng b\nv 0 0 0\nv 1 0 0\nl 1 2\n")->notes.empty());
+}
+
+// What is not used may be what programs write where they have no number.
+TEST(ObjFileTest, UnusedNumbersMayBeAnything) {
+  EXPECT_TRUE(
+      Read("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan nan nan\nvt 1e99 -inf\nf 1/1/1 2/1/1 3/1/1\n"));
 }
 
 TEST(ObjFileTest, BlanksMayFollowTheBackslash) {
@@ -114,6 +147,18 @@ TEST(ObjFileTest, EveryFaultIsNamedWithItsPlace) {
       {"v 0 0 0\nf a b c\n", "a.obj:2:3", "no vertex number"},
       {"v 0 0 0\nv 1 0 0\n", "a.obj:2", "no face"},
       {"v 0 0 0\ncurv 0 1 1 2\n", "a.obj:2:1", "free-form"},
+      {"v 0 0 0\n surf 0 1 0 1\n", "a.obj:2:2", "free-form"},
+      {"v 0 0 0\nbsp 1 2\n", "a.obj:2:1", "free-form"},
+      {"v 0 0 0\ncurv2 1 2\n", "a.obj:2:1", "free-form"},
+      {"v 0 0 0\ncall other.obj\n", "a.obj:2:1", "put its statements here"},
+      {"v 0 0 0\ncsh ls\n", "a.obj:2:1", "put its statements here"},
+      {"v 0 0 0\nv 1 0 0 nan\n", "a.obj:2:9", "not finite"},
+      {"v 0 0 0\nv 1 0 0 0 0 inf\n", "a.obj:2:13", "not finite"},
+      {"v 0 0 0\nv 1 -1.#IND 0\n", "a.obj:2:5", "not finite"},
+      {"v 0 0 0\nv 1 0 1.#QNAN\n", "a.obj:2:7", "not finite"},
+      {"v 0 0 0\nv 1 0 1.#inf # 1\n", "a.obj:2:7", "not finite"},
+      {"v 0 0 0\nv 0x1 0 0\n", "a.obj:2:3", "not a number"},
+      {"v 0 0 0\nv 1,5 0 0\n", "a.obj:2:3", "not a number"},
       {"v 0 0 0\nwhatever 3\n", "a.obj:2:1", "'whatever' is no statement"},
       {"hello\nworld\n", "a.obj", "no vertex line"},
   };

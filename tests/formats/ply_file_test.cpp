@@ -54,6 +54,42 @@ std::string Binary(bool big, uint32_t faces = 1) {
   return out;
 }
 
+// A header's lines end as its first one does: what follows `ply`. A body may begin with any byte.
+TEST(PlyFileTest, HeadersEndTheirLinesAsTheFirstOneDoes) {
+  for (const std::string first : {"\x0A", "\x0D"}) {
+    for (const std::string end : {"\n", "\r\n", "\r", "\n\r"}) {
+      for (const std::string blanks : {"", " ", "\t "}) {
+        for (const std::string mark : {"", "\xEF\xBB\xBF"}) {
+          std::string header = mark;
+          for (const char* line :
+               {"ply", "format binary_little_endian 1.0", "comment a", "element vertex 3",
+                "property uchar x", "property uchar y", "property uchar z", "element face 1",
+                "property list uchar uchar vertex_indices", "end_header"}) {
+            header += line + blanks + end;
+          }
+          const std::string body = first + std::string("\0\0\1\0\0\0\1\0\3\0\1\2", 12);
+          const auto shape = Read(header + body);
+          ASSERT_TRUE(shape) << shape.error().ToString();
+          EXPECT_EQ(shape->mesh.points[0], Vec3(first[0], 0, 0));
+        }
+      }
+    }
+  }
+}
+
+TEST(PlyFileTest, AsciiWithOddLineEnds) {
+  for (const std::string end : {"\r", "\r\n", "\n\r", " \n"}) {
+    std::string text = "\xEF\xBB\xBF";
+    for (const char* c = kAscii; *c != '\0'; ++c) text += *c == '\n' ? end : std::string(1, *c);
+    EXPECT_EQ(Read(text).value().mesh.points.size(), 4u);
+  }
+  // A header of Unix with a line of Windows, as editors leave them.
+  std::string mixed = kAscii;
+  mixed.replace(mixed.find("comment by hand\n"), 16, "comment by hand\r\n");
+  EXPECT_EQ(Read(mixed).value().mesh.points.size(), 4u);
+  EXPECT_FALSE(Read("plywood\nformat ascii 1.0\n"));
+}
+
 TEST(PlyFileTest, BothByteOrders) {
   for (bool big : {false, true}) {
     const ShapeFile shape = Read(Binary(big)).value();

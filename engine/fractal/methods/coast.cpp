@@ -32,7 +32,8 @@ MethodInfo CoastMethod() {
           [](CoarseShape shape, const FractalCommon& common, const std::any& own) {
             return PrepareCoast(std::move(shape), JoinMidpoint(common, own));
           },
-          /*borders_only=*/true};
+          /*borders_only=*/true,
+          JoinMidpoint};
 }
 
 }  // namespace fjord

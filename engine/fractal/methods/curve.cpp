@@ -38,7 +38,9 @@ MethodInfo CurveMethod() {
       Takes::kCurve,
       [](CoarseShape shape, const FractalCommon& common, const std::any& own) {
         return PrepareCurve(std::move(shape), JoinMidpoint(common, own));
-      }};
+      },
+      /*borders_only=*/false,
+      JoinMidpoint};
 }
 
 }  // namespace fjord

@@ -43,7 +43,9 @@ MethodInfo SurfaceMethod() {
       Takes::kTriangles,
       [](CoarseShape shape, const FractalCommon& common, const std::any& own) {
         return PrepareSurface(std::move(shape), JoinMidpoint(common, own));
-      }};
+      },
+      /*borders_only=*/false,
+      JoinMidpoint};
 }
 
 }  // namespace fjord

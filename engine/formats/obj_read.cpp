@@ -1,6 +1,7 @@
-// Wavefront .obj: v (with w or colours after it), f in all its forms, l, negative indices, lines
-// continued with a backslash. Lines of two points join into curves. Texture coordinates, normals,
-// groups and materials are passed over; free-form curves and surfaces are refused by name.
+// Reading Wavefront .obj: v (with w or colours after it), f in all its forms, l, negative indices,
+// lines continued with a backslash. Lines of two points join into curves. Texture coordinates,
+// normals, groups and materials are passed over; free-form curves and surfaces, and what is not in
+// the file, are refused by name.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -21,19 +22,44 @@ bool IsOneOf(std::string_view word, const std::array<std::string_view, n>& words
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-constexpr std::array<std::string_view, 25> kPassedOver = {
-    "vt",       "vn",       "vp",         "g",         "s",      "o",     "mg",
-    "p",        "mtllib",   "usemtl",     "usemap",    "maplib", "bevel", "lod",
-    "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech",  "stech", "call",
-    "csh",      "cstype",   "bmat",       "con"};
-constexpr std::array<std::string_view, 3> kFreeForm = {"curv", "curv2", "surf"};
-constexpr std::array<std::string_view, 9> kFreeFormParts = {"deg",  "step", "parm", "trim", "hole",
-                                                            "scrv", "sp",   "end",  "res"};
+// Statements that end in the name of a file or thing, which may end in a backslash.
+constexpr std::array<std::string_view, 8> kNaming = {"mtllib", "maplib",     "usemap",    "usemtl",
+                                                     "o",      "shadow_obj", "trace_obj", "g"};
+constexpr std::array<std::string_view, 12> kPassedOver = {
+    "vt", "vn", "s", "mg", "bevel", "lod", "c_interp", "d_interp", "ctech", "stech", "vp", "p"};
+constexpr std::array<std::string_view, 7> kFreeForm = {"curv", "curv2", "surf", "bsp",
+                                                       "bzp",  "cdc",   "cdp"};
+// Alone these draw nothing.
+constexpr std::array<std::string_view, 12> kFreeFormParts = {
+    "cstype", "bmat", "con", "deg", "step", "parm", "trim", "hole", "scrv", "sp", "end", "res"};
+constexpr std::array<std::string_view, 6> kTaken = {"v", "f", "fo", "l", "call", "csh"};
+
+bool IsStatement(std::string_view word) {
+  return IsOneOf(word, kTaken) || IsOneOf(word, kNaming) || IsOneOf(word, kPassedOver) ||
+         IsOneOf(word, kFreeForm) || IsOneOf(word, kFreeFormParts);
+}
+
+std::string_view FirstWord(std::string_view line) {
+  text::Words words(line);
+  text::Word word;
+  return words.Next(&word) ? word.text : std::string_view();
+}
+
+// Where a line's comment begins. The sign in 1.#IND, 1.#INF and 1.#QNAN, which some C libraries
+// print for what is no number, begins none: the vertex would lose that it is bad.
+size_t CommentOf(std::string_view line) {
+  size_t at = line.find('#');
+  while (at != line.npos && at >= 2 && line.substr(at - 2, 2) == "1." && at + 1 < line.size() &&
+         std::string_view("IQSiqs").find(line[at + 1]) != std::string_view::npos) {
+    at = line.find('#', at + 1);
+  }
+  return at;
+}
 
 // A line without its comment and the blanks at its end. A comment ends with its line, whatever it
 // ends in, and blanks may follow the backslash that joins the next line.
 std::string_view Statement(std::string_view line) {
-  line = line.substr(0, line.find('#'));
+  line = line.substr(0, CommentOf(line));
   return line.substr(0, line.find_last_not_of(" \t\v\f") + 1);
 }
 
@@ -51,6 +77,13 @@ class ObjReader {
     while (lines_.Next(&line)) {
       line_ = line.number;
       std::string_view content = Statement(line.text);
+      // A name may end in a backslash, as folders do: what follows such a line and is a statement
+      // stands for itself.
+      if (IsContinued(content) && IsOneOf(FirstWord(content), kNaming)) {
+        text::LineReader ahead = lines_;
+        text::Line next;
+        if (!ahead.Next(&next) || IsStatement(FirstWord(next.text))) continue;
+      }
       if (IsContinued(content)) {
         joined.clear();
         while (IsContinued(content)) {
@@ -84,12 +117,31 @@ class ObjReader {
     if (word.text == "v") return ReadVertex(&words);
     if (word.text == "f" || word.text == "fo") return ReadElement(&words, true);
     if (word.text == "l") return ReadElement(&words, false);
-    if (IsOneOf(word.text, kPassedOver) || IsOneOf(word.text, kFreeFormParts)) return Ok{};
+    if (word.text == "p")
+      Note(word, &points_said_, "points (p) are passed over: they are no curve");
+    if (word.text == "vp") {
+      Note(word, &parameters_said_, "vp belongs to free-form curves and is passed over");
+    }
+    if (IsOneOf(word.text, kPassedOver) || IsOneOf(word.text, kNaming) ||
+        IsOneOf(word.text, kFreeFormParts)) {
+      return Ok{};
+    }
+    if (word.text == "call" || word.text == "csh") {
+      return Fail(word.column, std::string(word.text) +
+                                   " takes in what another file or program says, which is not "
+                                   "done; put its statements here");
+    }
     if (IsOneOf(word.text, kFreeForm)) {
       return Fail(word.column, "free-form curves and surfaces (" + std::string(word.text) +
                                    ") are not read; turn them into polygons first");
     }
     return Fail(word.column, text::Quoted(word.text) + " is no statement of a Wavefront .obj file");
+  }
+
+  // Said once a file.
+  void Note(const text::Word& word, bool* said, const char* message) {
+    if (!*said) shape_.notes.push_back(At(word.column).ToString() + ": note: " + message);
+    *said = true;
   }
 
   Result<> ReadVertex(text::Words* words) {
@@ -274,54 +326,14 @@ class ObjReader {
   std::vector<uint32_t> curve_vertex_;
   std::vector<size_t> curve_size_;
   std::vector<Forward> forward_;
+  bool points_said_ = false, parameters_said_ = false;
   ShapeFile shape_;
 };
-
-void AppendVertex(const Vec3& p, const Rgb* color, std::string* out) {
-  *out += 'v';
-  for (int k = 0; k < 3; ++k) text::Append(p[k], &(*out += ' '));
-  for (int k = 0; color != nullptr && k < 3; ++k) text::Append((*color)[k], &(*out += ' '));
-  *out += '\n';
-}
 
 }  // namespace
 
 Result<ShapeFile> ReadObj(std::string_view bytes, const std::string& name) {
   return ObjReader(bytes, name).Read();
-}
-
-std::string WriteObj(const ShapeFile& shape, const Comment& comment) {
-  std::string out;
-  for (const std::string& line : comment) {
-    out += "# " + text::OneLine(line);
-    out += out.back() == '\\' ? " \n" : "\n";  // a backslash would join the next line
-  }
-  const Mesh& mesh = shape.mesh;
-  // Points without faces would be read as the mesh's; a file of curves alone has none.
-  const size_t mesh_points = mesh.face_size.empty() ? 0 : mesh.points.size();
-  for (size_t v = 0; v < mesh_points; ++v) {
-    AppendVertex(mesh.points[v], mesh.colors.empty() ? nullptr : &mesh.colors[v], &out);
-  }
-  for (const Polyline& curve : shape.curves) {
-    for (const Vec3& p : curve.points) AppendVertex(p, nullptr, &out);
-  }
-  size_t corner = 0;
-  for (const uint32_t size : mesh.face_size) {
-    out += 'f';
-    for (size_t k = 0; k < size; ++k) {
-      text::Append(uint64_t{mesh.face_vertex[corner++]} + 1, &(out += ' '));
-    }
-    out += '\n';
-  }
-  uint64_t first = mesh_points + 1;
-  for (const Polyline& curve : shape.curves) {
-    out += 'l';
-    for (size_t k = 0; k < curve.points.size(); ++k) text::Append(first + k, &(out += ' '));
-    if (curve.closed) text::Append(first, &(out += ' '));
-    first += curve.points.size();
-    out += '\n';
-  }
-  return out;
 }
 
 }  // namespace fjord::formats
