@@ -106,7 +106,7 @@ void AddImport(CLI::App& app, Run* run) {
       ->check(CLI::Range(0., 1e12));
   command->add_flag("--force", options->force, "Write over a scene that exists");
   command->footer(
-      "Camera and light are set from the shape's bounds: what is written renders at once.\n\n"
+      "Camera and light go by the shape: what is written renders at once, all of it in view.\n\n"
       "Examples:\n"
       "  fjord import taiwan.std -o taiwan.scene\n"
       "  fjord import taiwan.std taiwan.par -o taiwan.scene\n"

@@ -18,20 +18,11 @@ constexpr size_t kMostNotes = 5;
 constexpr size_t kMostCurves = 1000;  // that become objects
 // The default amplitude is for shapes of this extent.
 constexpr double kAmplitude = .15, kAmplitudeExtent = 2, kH = .7;
-constexpr double kAspect = 960. / 540;
-constexpr double kMargin = 1.1;
-// Eye distance that holds a ball of radius 1 at a vertical angle of 35 degrees: 1 / sin(17.5
-// degrees).
-constexpr double kBallDistance = 3.33;
 
 std::string Text(double value) {
   std::string text;
   text::Append(value + 0, &text);
   return text;
-}
-
-std::string Xyz(const Vec3& v) {
-  return "{ x: " + Text(v.x) + " y: " + Text(v.y) + " z: " + Text(v.z) + " }";
 }
 
 std::string ProtoString(const std::string& text) {
@@ -104,30 +95,16 @@ std::string Knobs(const ParFile& par) {
   return out;
 }
 
+// The default camera has all of the fractal in view, and follows what becomes of the scene.
 std::string Camera(const Judged& judged) {
-  const Vec3 size = judged.box.Size();
-  const double extent = judged.box.Extent();
-  Vec3 center = (judged.box.low + judged.box.high) * .5;
-  for (int k = 0; k < 3; ++k) center[k] = Rounded(center[k], extent);
-  const auto at = [&](const Vec3& offset) {
-    Vec3 eye = center + offset;
-    for (int k = 0; k < 3; ++k) eye[k] = Rounded(eye[k], extent);
-    return eye;
-  };
-  if (size.z == 0) {
-    // Lines stray from their coarse form by up to some two fifths of an edge on either side.
-    const double stray = 2 * .4 * judged.longest;
-    const double height =
-        Rounded(std::max(size.y + stray, (size.x + stray) / kAspect) * kMargin, extent);
-    return "camera {  # from above: the shape is flat\n  eye " + Xyz(at({0, 0, extent})) +
-           "\n  look_at " + Xyz(center) +
-           "\n  up { x: 0 y: 1 z: 0 }\n  projection: ORTHOGRAPHIC\n" +
-           "  view_height: " + Text(height > 0 ? height : extent) + "\n}\n";
+  if (judged.box.Size().z == 0) {
+    return "camera { projection: ORTHOGRAPHIC }  # from above: the shape is flat; stands so that "
+           "all "
+           "is in view\n";
   }
-  const double distance = .5 * Length(size) * kBallDistance;
-  return "camera {  # from the south, so that all of it is in view\n  eye " +
-         Xyz(at(Unit(Vec3(.32, -.8, .5)) * distance)) + "\n  look_at " + Xyz(center) +
-         "\n  up { x: 0 y: 0 z: 1 }\n  fov: 35\n}\n";
+  return "# The camera stands where all is in view. To place it: camera { eye { } look_at { } fov: "
+         "35 "
+         "}\n";
 }
 
 std::string Lights() {

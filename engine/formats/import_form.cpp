@@ -79,12 +79,6 @@ void Bounds::Add(const Vec3& p) {
   empty = false;
 }
 
-double Rounded(double value, double unit) {
-  const double scaled = value * (1000 / unit);
-  const bool exact = scaled > -1e15 && scaled < 1e15;  // else rounding would change it too much
-  return exact ? static_cast<double>(RoundToInt64(scaled)) / (1000 / unit) : value;
-}
-
 Judged Judge(const ShapeFile& shape) {
   Judged judged;
   const Mesh& mesh = shape.mesh;
@@ -96,7 +90,6 @@ Judged Judge(const ShapeFile& shape) {
       AddLength(k > 0 ? curve.points[k - 1] : curve.points.back(), curve.points[k], &lengths);
     }
   }
-  for (const double length : lengths) judged.longest = std::max(judged.longest, length);
   if (mesh.face_size.empty()) {
     judged.form = Form::kCurve;
     judged.closed = shape.curves[0].closed;
@@ -122,7 +115,6 @@ Judged Judge(const ShapeFile& shape) {
       judged.spacing = SpacingOf(mesh, lengths, judged.form == Form::kFlatMesh);
     }
   }
-  for (const double length : lengths) judged.longest = std::max(judged.longest, length);
   return judged;
 }
 

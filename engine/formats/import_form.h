@@ -24,8 +24,6 @@ struct Judged {
   bool closed = false;        // of a curve
   bool level_border = false;  // of a relief: all boundary vertices lie at the lowest height
   Bounds box;
-  // Edge of the curves, or of a flat mesh; how far the fractal strays goes by it.
-  double longest = 0;
   // Longest edge that the file's shape shall have, so that it has one look all over and no slivers
   // (File.spacing); 0: it is well as it is.
   double spacing = 0;
@@ -42,8 +40,5 @@ struct Piece {
 };
 
 std::vector<Piece> PiecesOf(const ShapeFile& shape, const Judged& judged);
-
-// Rounded to a thousandth of the unit: enough digits for a person to read.
-double Rounded(double value, double unit);
 
 }  // namespace fjord::import

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 
 #include "engine/asset/asset.h"
 #include "engine/base/result.h"
@@ -43,9 +44,30 @@ struct RenderedFrame {
   RenderStats stats;
 };
 
+// A frame made ready to draw: objects prepared, shadow maps drawn, once for all of its tiles.
+// Immutable; share it between threads.
+class FrameRenderer {
+ public:
+  // Of options: assets, and what DrawShadows takes.
+  static Result<std::unique_ptr<FrameRenderer>> Make(const v1::FrameScene& frame,
+                                                     const RenderOptions& options);
+  ~FrameRenderer();
+
+  Result<RenderedFrame> Whole(const RenderOptions& options) const;
+  // One tile alone (x0, y0, width, height in pixels): equals that part of the whole.
+  Result<RenderedFrame> Tile(uint32_t x, uint32_t y, uint32_t width, uint32_t height,
+                             const RenderOptions& options) const;
+ private:
+  struct Ready;
+  explicit FrameRenderer(std::unique_ptr<const Ready> ready);
+
+  std::unique_ptr<const Ready> ready_;
+};
+
+// Make and Whole.
 Result<RenderedFrame> RenderFrame(const v1::FrameScene& frame, const RenderOptions& options);
 
-// One tile of it alone (x0, y0, width, height in pixels): equals that part of the whole.
+// Make and Tile, for one tile.
 Result<RenderedFrame> RenderTile(const v1::FrameScene& frame, uint32_t x, uint32_t y,
                                  uint32_t width, uint32_t height, const RenderOptions& options);
 

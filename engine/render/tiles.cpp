@@ -78,8 +78,9 @@ class WorkerPool {
 
 class RegionRenderer {
  public:
-  RegionRenderer(const BuiltFrame& frame, const TileRect& region, const RenderOptions& options)
-      : setup_(frame), region_(region), options_(options) {
+  RegionRenderer(const FrameSetup& setup, const TileRect& region, const RenderOptions& options)
+      : setup_(setup), region_(region), options_(options) {
+    const BuiltFrame& frame = setup.frame;
     const TileSize size = options.tile_size > 0 ? TileSize{options.tile_size, options.tile_size}
                                                 : ChooseTile(region, Threads());
     lists_ = BinRoots(region, size.width, size.height, setup_.cull);
@@ -94,7 +95,6 @@ class RegionRenderer {
   }
 
   Result<RenderedFrame> Run() {
-    if (Result<> drawn = DrawShadows(&setup_, options_); !drawn) return drawn.error();
     ParallelFor(lists_.tiles.size(), options_.threads, [this](size_t i) { RenderTile(i); });
     if (IsSet(options_.cancel)) return MakeError(ErrorCode::kCancelled, "cancelled");
     stats_.peak_bytes = most_bytes_ * std::min(static_cast<size_t>(Threads()), lists_.tiles.size());
@@ -198,7 +198,7 @@ class RegionRenderer {
     if (options_.progress) options_.progress(share);
   }
 
-  FrameSetup setup_;  // tiles only read it
+  const FrameSetup& setup_;
   const TileRect region_;
   const RenderOptions& options_;
   TileLists lists_;
@@ -213,13 +213,21 @@ class RegionRenderer {
 
 }  // namespace
 
-Result<RenderedFrame> RenderRegion(const BuiltFrame& frame, const TileRect& region,
+Result<RenderedFrame> RenderRegion(const FrameSetup& setup, const TileRect& region,
                                    const RenderOptions& options) {
   SetFloatEnvironment();
   if (options.tile_size < 0 || options.tile_size % 16 != 0 || options.tile_size > 4096) {
     return Invalid("the tile size must be a multiple of 16, at most 4096");
   }
-  return RegionRenderer(frame, region, options).Run();
+  return RegionRenderer(setup, region, options).Run();
+}
+
+Result<RenderedFrame> RenderRegion(const BuiltFrame& frame, const TileRect& region,
+                                   const RenderOptions& options) {
+  SetFloatEnvironment();
+  FrameSetup setup(frame);
+  if (Result<> drawn = DrawShadows(&setup, options); !drawn) return drawn.error();
+  return RenderRegion(setup, region, options);
 }
 
 }  // namespace fjord

@@ -8,6 +8,7 @@
 #include "engine/render/build.h"
 #include "engine/render/clip.h"
 #include "engine/render/cull.h"
+#include "engine/render/edge_set.h"
 #include "engine/render/places.h"
 #include "engine/render/view.h"
 
@@ -15,15 +16,10 @@ namespace fjord {
 namespace {
 
 constexpr double kCoarsest = 1e12;
-// Edges come twice or more, once with each face; so many times what may stay are held at once.
-constexpr size_t kHeld = 4;
+constexpr size_t kHeld = 4;  // times what may stay, before the shorter ones fall out
 
 bool IsBefore(const ScreenEdge& a, const ScreenEdge& b) {
   return std::tie(a.place, a.from, a.to) < std::tie(b.place, b.from, b.to);
-}
-
-bool IsSame(const ScreenEdge& a, const ScreenEdge& b) {
-  return a.place == b.place && a.from == b.from && a.to == b.to;
 }
 
 double SquaredLength(const ScreenEdge& edge) {
@@ -33,6 +29,10 @@ double SquaredLength(const ScreenEdge& edge) {
 
 // Liang-Barsky against -1 .. size + 1.
 bool CutToPicture(const BuiltFrame& frame, ScreenEdge* s) {
+  const auto inside = [&](double x, double y) {
+    return x >= -1 && x <= frame.width + 1. && y >= -1 && y <= frame.height + 1.;
+  };
+  if (inside(s->x0, s->y0) && inside(s->x1, s->y1)) return true;
   const double dx = s->x1 - s->x0, dy = s->y1 - s->y0;
   double from = 0, to = 1;
   const auto side = [&](double p, double q) {  // p t <= q
@@ -60,7 +60,9 @@ bool CutToPicture(const BuiltFrame& frame, ScreenEdge* s) {
 // One end of an edge on its way to the picture.
 struct End {
   uint64_t id = 0;
-  Vec3 position{0};
+  ClipPoint clip;
+  double x = 0, y = 0;    // pixels
+  bool is_plain = false;  // before the eye and not far away: x and y are its place
 };
 
 class EdgeCollector {
@@ -74,15 +76,57 @@ class EdgeCollector {
     to_ = to;
   }
 
-  void Add(End a, End b) {
-    if (full_) return;
-    if (b.id < a.id) std::swap(a, b);
+  // All edges of a batch.
+  void Add(const StreamBatch& batch) {
+    ends_.clear();
+    for (const StreamVertex& vertex : batch.vertices) ends_.push_back(MakeEnd(vertex));
+    for (const Triangle& t : batch.triangles) {
+      for (size_t k = 0; k < 3; ++k) Add(ends_[t[k]], ends_[t[(k + 1) % 3]]);
+    }
+    for (const auto& segment : batch.segments) Add(ends_[segment[0]], ends_[segment[1]]);
+  }
+
+  // Are there too many already?
+  bool Full() const { return !longest_only_ && edges_.size() > most_; }
+
+  // In order.
+  std::vector<ScreenEdge> Take() {
+    if (longest_only_) KeepLongest();
+    std::sort(edges_.begin(), edges_.end(), IsBefore);
+    return std::move(edges_);
+  }
+  bool left_any() const { return left_any_; }
+
+ private:
+  End MakeEnd(const StreamVertex& vertex) const {
+    constexpr double kFar = kFixedGuard / 2;
+    End end{vertex.id, ToClip(to_, vertex.position)};
+    if (!(end.clip.z > to_.near)) return end;
+    const double scale = to_.orthographic ? 1 : 1 / end.clip.z;
+    const double x = end.clip.x * scale, y = end.clip.y * scale;
+    end.is_plain = x > -kFar && x < kFar && y > -kFar && y < kFar;
+    end.x = x / kFixedOne;
+    end.y = y / kFixedOne;
+    return end;
+  }
+
+  void Add(const End& one, const End& other) {
+    if (Full()) return;
+    const End &a = one.id < other.id ? one : other, &b = one.id < other.id ? other : one;
+    ScreenEdge edge{a.x, a.y, b.x, b.y, place_, a.id, b.id};
+    if (!(a.is_plain && b.is_plain) && !Clip(a, b, &edge)) return;
+    if (!CutToPicture(frame_, &edge) || !met_.Insert(place_, a.id, b.id)) return;
+    edges_.push_back(edge);
+    if (longest_only_ && edges_.size() > kHeld * most_) KeepLongest();
+  }
+
+  bool Clip(const End& a, const End& b, ScreenEdge* edge) const {
     ClipPolygon line;
     line.size = 2;
-    line.corner[0].clip = ToClip(to_, a.position);
-    line.corner[1].clip = ToClip(to_, b.position);
+    line.corner[0].clip = a.clip;
+    line.corner[1].clip = b.clip;
     ClipToView(to_, &line);
-    if (line.size != 2) return;
+    if (line.size != 2) return false;
     double x[2], y[2];
     for (int i = 0; i < 2; ++i) {
       const ClipPoint& p = line.corner[i].clip;
@@ -90,32 +134,14 @@ class EdgeCollector {
       x[i] = p.x * scale;
       y[i] = p.y * scale;
     }
-    ScreenEdge edge{x[0], y[0], x[1], y[1], place_, a.id, b.id};
-    if (CutToPicture(frame_, &edge)) edges_.push_back(edge);
-    if (edges_.size() > kHeld * most_) {
-      Settle();
-      if (longest_only_) KeepLongest();
-    }
+    edge->x0 = x[0];
+    edge->y0 = y[0];
+    edge->x1 = x[1];
+    edge->y1 = y[1];
+    return true;
   }
 
-  // Are there too many already?
-  bool Full() const { return full_; }
-
-  // Each once, in order.
-  std::vector<ScreenEdge> Take() {
-    Settle();
-    if (longest_only_) KeepLongest();
-    return std::move(edges_);
-  }
-  bool left_any() const { return left_any_; }
-
- private:
-  void Settle() {
-    std::sort(edges_.begin(), edges_.end(), IsBefore);
-    edges_.erase(std::unique(edges_.begin(), edges_.end(), IsSame), edges_.end());
-    full_ = !longest_only_ && edges_.size() > most_;
-  }
-
+  // Shorter ones that come again are let in again, and fall out again.
   void KeepLongest() {
     if (edges_.size() <= most_) return;
     left_any_ = true;
@@ -126,7 +152,8 @@ class EdgeCollector {
                        return of_a != of_b ? of_a > of_b : IsBefore(a, b);
                      });
     edges_.erase(end, edges_.end());
-    std::sort(edges_.begin(), edges_.end(), IsBefore);
+    met_.Clear();
+    for (const ScreenEdge& edge : edges_) met_.Insert(edge.place, edge.from, edge.to);
   }
 
   const BuiltFrame& frame_;
@@ -134,8 +161,9 @@ class EdgeCollector {
   const bool longest_only_;
   uint32_t place_ = 0;
   Projection to_;
+  std::vector<End> ends_;  // of a batch
   std::vector<ScreenEdge> edges_;
-  bool full_ = false;
+  EdgeSet met_;
   bool left_any_ = false;
 };
 
@@ -147,15 +175,7 @@ class EdgeSink final : public StreamSink {
   bool Wants(const Vec3& a, const Vec3& b, const Vec3& c, const StreamReach& reach) override {
     return !edges_->Full() && frustum_.MayTouch(a, b, c, reach);
   }
-  void Take(const StreamBatch& batch) override {
-    const auto end = [&](uint32_t vertex) {
-      return End{batch.vertices[vertex].id, batch.vertices[vertex].position};
-    };
-    for (const Triangle& t : batch.triangles) {
-      for (size_t k = 0; k < 3; ++k) edges_->Add(end(t[k]), end(t[(k + 1) % 3]));
-    }
-    for (const auto& segment : batch.segments) edges_->Add(end(segment[0]), end(segment[1]));
-  }
+  void Take(const StreamBatch& batch) override { edges_->Add(batch); }
 
  private:
   const TileFrustum& frustum_;
@@ -213,9 +233,8 @@ Result<FrameEdges> EdgesInView(const BuiltFrame& frame, size_t most) {
     const Result<uint64_t> more = Collect(frame, coarser, &edges);
     if (!more) return more.error();
     found.made += *more;
-    std::vector<ScreenEdge> taken = edges.Take();
-    if (taken.size() > most) continue;
-    found.edges = std::move(taken);
+    if (edges.Full()) continue;
+    found.edges = edges.Take();
     found.coarser = coarser;
     return found;
   }
