@@ -72,37 +72,6 @@ Guess GuessText(std::string_view bytes) {
   return guess;
 }
 
-// What a file that is no text may be, by its first bytes, and what to do about it.
-std::string BinaryKind(std::string_view bytes) {
-  struct Kind {
-    std::string_view start;
-    const char* message;
-  };
-  using namespace std::string_view_literals;
-  constexpr std::array<Kind, 8> kKinds = {
-      {{"\x1F\x8B"sv, "the file is compressed by gzip (as .svgz is); unpack it first"},
-       {"PK\x03\x04"sv, "the file is a zip archive; unpack it first"},
-       {"\xFF\xFE"sv, "the file is text in UTF-16; save it as UTF-8"},
-       {"\xFE\xFF"sv, "the file is text in UTF-16; save it as UTF-8"},
-       {"\x89PNG"sv, "the file is a picture; give it as shape { heights { file { ... } } }"},
-       {"v/1\x01"sv, "the file is a picture; give it as shape { heights { file { ... } } }"},
-       {"glTF"sv, "the file is glTF; export the shape as .obj or .ply"},
-       {"BLENDER"sv, "the file is Blender's own; export the shape as .obj or .ply"}}};
-  for (const Kind& kind : kKinds) {
-    if (bytes.substr(0, kind.start.size()) == kind.start) return kind.message;
-  }
-  // A binary STL: 80 bytes of anything, a count, and 50 bytes for each triangle.
-  if (bytes.size() >= 84) {
-    uint64_t count = 0;
-    for (size_t i = 0; i < 4; ++i) {
-      count |= uint64_t{static_cast<unsigned char>(bytes[80 + i])} << (8 * i);
-    }
-    if (bytes.size() == 84 + 50 * count)
-      return "the file is a binary STL; export it as .ply or .obj";
-  }
-  return "the file is binary; shapes are .std, .epf, Wavefront .obj, .ply or .svg";
-}
-
 // The mesh of a shape obeys Mesh's invariants, its curves are curves, its numbers can be read
 // again.
 Result<> CheckWritable(const ShapeFile& shape, ShapeFormat format) {
@@ -179,9 +148,16 @@ Result<ShapeFile> ReadShape(std::string_view bytes, const std::string& name) {
   if (bytes.size() > limits::kFileBytes) {
     return MakeError(ErrorCode::kLimit, "the file is larger than 1 GiB", file);
   }
-  if (formats::LooksLikePly(bytes)) return formats::ReadPly(bytes, name);
+  if (formats::LooksLikePly(bytes)) {
+    return formats::ReadPly(bytes, name);
+  }
   if (formats::LooksLikeWideXml(bytes)) return formats::ReadSvg(bytes, name);
-  if (text::LooksBinary(bytes)) return Invalid(BinaryKind(bytes), file);
+  if (bytes.substr(0, 2) == "\xFF\xFE" || bytes.substr(0, 2) == "\xFE\xFF") {
+    return Invalid("the file is text in UTF-16; save it as UTF-8", file);
+  }
+  if (text::LooksBinary(bytes)) {
+    return Invalid("the file is binary; shapes are .std, .epf, Wavefront .obj, .ply or .svg", file);
+  }
   const size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == bytes.npos) return Invalid("the file holds nothing but spaces", file);
   if (bytes[first] == '<') return formats::ReadSvg(bytes, name);

@@ -344,14 +344,14 @@ class SvgReader {
   // One for each kind of thing that is shown and yet is no curve, at the first of its kind.
   void AddNotes() {
     for (const auto& [name, index] : seen_) {
-      std::string note = document_.PlaceOf(elements_[index]).ToString() + ": note: ";
+      std::string note;
       if (IsOneOf(name, kCutting)) {
         note.append(name).append(" cuts nothing off: curves stay whole");
       } else {
         note.append("<").append(name).append(">");
         note += IsOneOf(name, kMoving) ? " moves nothing here" : " is passed over: it is no curve";
       }
-      shape_.notes.push_back(std::move(note));
+      shape_.notes.push_back({document_.PlaceOf(elements_[index]), std::move(note)});
     }
   }
 

@@ -182,6 +182,9 @@ Result<Geometry> FromFile(const v1::File& file, const std::string& bytes) {
   } else {
     return Invalid(file.path() + " has no faces and no curves");
   }
+  for (const ShapeNote& note : read->notes) {
+    geometry.notes.push_back(note.place.ToString() + ": " + note.message);
+  }
   return Checked(std::move(geometry));
 }
 
