@@ -44,13 +44,15 @@ class SvgReader {
       if (!type.empty() && type != "text/css") continue;
       if (auto ok = style_.AddSheet(element); !ok) return ok.error();
     }
-    if (auto ok = Draw(0, {}); !ok) return ok.error();
+    // The outer one keeps the coordinates of its content: its size on a page bends nothing.
+    State state;
+    state.view = values_.OuterViewport(outer);
+    if (auto ok = Draw(0, state); !ok) return ok.error();
     if (!pen_.Take(&shape_.curves)) return TooManyVertices(document_.PlaceOf(outer));
     if (shape_.curves.empty()) {
       return Fail(outer,
-                  "nothing of the drawing is a curve of two points or more: paths, "
-                  "polylines, polygons, lines, rectangles, circles and ellipses are" +
-                      std::string(seen_.empty() ? "" : "; text and pictures are not"));
+                  "nothing of the drawing is a curve of two points or more: paths, polylines, "
+                  "polygons, lines, rectangles, circles and ellipses are, text is not");
     }
     AddNotes();
     return std::move(shape_);
@@ -100,13 +102,12 @@ class SvgReader {
     NoteCuts(index);
     if (auto ok = values_.Transform(element, state.view, &state.matrix); !ok) return ok;
     if (use) return DrawUse(element, state);
-    if (viewport) {
+    if (viewport && state.depth > 1) {
       bool empty = false;
-      // The outer one keeps the coordinates of its content: its size on a page bends nothing.
-      auto ok = state.depth == 1 ? values_.OuterViewport(element, &state.view)
-                                 : values_.InnerViewport(element, state.user, &state.view,
-                                                         &state.matrix, &empty);
-      if (!ok) return ok;
+      if (auto ok = values_.InnerViewport(element, state.user, &state.view, &state.matrix, &empty);
+          !ok) {
+        return ok;
+      }
       if (empty) return Ok{};
     }
     if (viewport || group) return DrawInside(index, state);
@@ -206,12 +207,11 @@ class SvgReader {
   void AddNotes() {
     for (const auto& [name, index] : seen_) {
       std::string note;
-      if (IsOneOf(name, kCutting)) {
-        note.append(name).append(" cuts nothing off: curves stay whole");
-      } else {
-        note.append("<").append(name).append(">");
-        note += IsOneOf(name, kMoving) ? " moves nothing here" : " is passed over: it is no curve";
-      }
+      const bool cuts = IsOneOf(name, kCutting);
+      note.append(cuts ? "" : "<").append(name).append(cuts ? "" : ">");
+      note += cuts                     ? " cuts nothing off: curves stay whole"
+              : IsOneOf(name, kMoving) ? " moves nothing here"
+                                       : " is passed over: it is no curve";
       shape_.notes.push_back({document_.PlaceOf(elements_[index]), std::move(note)});
     }
   }

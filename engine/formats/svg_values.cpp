@@ -111,23 +111,18 @@ Result<> SvgValues::ViewBox(const XmlElement& element, SvgViewBox* box) const {
   return fault.ok() ? Result<>(Ok{}) : Fail(element, "viewBox", fault);
 }
 
-Result<> SvgValues::OuterViewport(const XmlElement& element, SvgViewport* view) const {
-  if (!document_.Attribute(element, "viewBox").empty()) {
-    SvgViewBox box;
-    if (auto ok = ViewBox(element, &box); !ok) return ok;
-    *view = {box.size, true};
-    return Ok{};
+// What cannot be read makes the size unknown, which matters to none but per cents.
+SvgViewport SvgValues::OuterViewport(const XmlElement& element) const {
+  SvgViewBox box;
+  if (!document_.Attribute(element, "viewBox").empty() && ViewBox(element, &box).ok()) {
+    return {box.size, true};
   }
-  *view = {Vec2(0), true};
+  SvgViewport view = {Vec2(0), true};
   for (int k = 0; k < 2; ++k) {
-    // A per cent of a window that nobody has.
-    const bool open = style_.Find(element, k == 0 ? "width" : "height").value.ends_with('%');
-    const Result<bool> given =
-        open ? Result<bool>(false) : Side(element, nullptr, k, {}, &view->size[k]);
-    if (!given.ok()) return given.error();
-    view->known = view->known && *given;
+    const Result<bool> given = Side(element, nullptr, k, {}, &view.size[k]);
+    view.known = view.known && given.ok() && *given;
   }
-  return Ok{};
+  return view;
 }
 
 Result<> SvgValues::InnerViewport(const XmlElement& element, const XmlElement* user,

@@ -30,10 +30,9 @@ class SvgValues {
   // x and y.
   Result<> Position(const XmlElement& element, const SvgViewport& view, Vec2* at) const;
 
-  // `view` becomes the element's own.
-  Result<> OuterViewport(const XmlElement& element, SvgViewport* view) const;
-  // Also `matrix`. `user` is the <use> whose target the element is, null without one; `empty`: its
-  // size is nothing, and nothing in it is drawn.
+  SvgViewport OuterViewport(const XmlElement& element) const;
+  // `view` and `matrix` become those of what is inside. `user` is the <use> whose target the
+  // element is, null without one; `empty`: its size is nothing, and nothing in it is drawn.
   Result<> InnerViewport(const XmlElement& element, const XmlElement* user, SvgViewport* view,
                          SvgMatrix* matrix, bool* empty) const;
 

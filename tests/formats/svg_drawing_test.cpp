@@ -109,7 +109,8 @@ TEST(SvgDrawingTest, ViewportsOfNoSizeDrawNothing) {
 
 TEST(SvgDrawingTest, TheOuterViewportBendsNothing) {
   for (const char* outer : {"<svg x='5' y='9' width='40mm' height='10' viewBox='0 0 4 4'>",
-                            "<svg width='100%' height='100%'>", "<svg viewBox='5 5 1 1'>"}) {
+                            "<svg width='100%' height='100%'>", "<svg viewBox='5 5 1 1'>",
+                            "<svg width='10em' height='-1'>", "<svg viewBox='0 0 100px 50px'>"}) {
     ExpectNear(Curves(outer + std::string("<path d='M0 0H1'/></svg>"))[0].points,
                {{0, 0, 0}, {1, 0, 0}});
   }
