@@ -38,7 +38,9 @@ Errors CheckShape(const std::string& path) {
   if (!bytes.ok()) return {bytes.error()};
   const Result<ShapeFile> shape = ReadShape(*bytes, path);
   if (!shape.ok()) return {shape.error()};
-  for (const std::string& note : shape->notes) console::Note(note);
+  for (const ShapeNote& note : shape->notes) {
+    console::Note(note.place.ToString() + ": note: " + note.message);
+  }
   Errors errors;
   for (const MeshDefect& defect : CheckMesh(shape->mesh)) {
     Place place{path, 0, 0};

@@ -26,6 +26,7 @@ struct SvgProperty {
 class SvgStyle {
  public:
   explicit SvgStyle(const XmlDocument& document) : document_(document) {}
+  const XmlDocument& document() const { return document_; }
 
   // Takes in the sheet of a <style> element. Selectors of a name, classes and an id, as
   // `path.thin`, and lists of these are known; where others hide or move something the sheet is
