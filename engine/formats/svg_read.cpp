@@ -24,6 +24,7 @@ constexpr std::array<std::string_view, 3> kNoCurves = {"text", "image", "foreign
 constexpr std::array<std::string_view, 5> kMoving = {"animate", "animateTransform", "animateMotion",
                                                      "animateColor", "set"};
 constexpr std::array<std::string_view, 2> kCutting = {"clip-path", "mask"};
+constexpr std::string_view kUnpainted = "a curve";
 
 template <size_t n>
 bool IsOneOf(std::string_view word, const std::array<std::string_view, n>& words) {
@@ -48,6 +49,7 @@ class SvgReader {
     State state;
     state.view = values_.OuterViewport(outer);
     if (auto ok = Draw(0, state); !ok) return ok.error();
+    if (!pen_.LeavesOut()) seen_.erase(kUnpainted);
     if (!pen_.Take(&shape_.curves)) return TooManyVertices(document_.PlaceOf(outer));
     if (shape_.curves.empty()) {
       return Fail(outer,
@@ -64,6 +66,7 @@ class SvgReader {
     SvgMatrix matrix;
     SvgViewport view;
     bool visible = true;
+    bool filled = true, stroked = false;
     size_t depth = 0;
     const XmlElement* user = nullptr;  // the <use> whose target is drawn
   };
@@ -83,11 +86,18 @@ class SvgReader {
       return MakeError(ErrorCode::kLimit, "<use> draws more than 1,000,000 elements",
                        document_.PlaceOf(element));
     }
+    if (style_.looks() > limits::kStyleLooks) {
+      return MakeError(ErrorCode::kLimit, "too many rules of style sheets for too many elements",
+                       document_.PlaceOf(element));
+    }
     if (++state.depth > limits::kDepth) {
       return MakeError(ErrorCode::kLimit, "more than 64 elements within each other, <use> counted",
                        document_.PlaceOf(element));
     }
-    if (style_.Find(element, "display").value == "none" || !values_.Applies(element)) return Ok{};
+    if (style_.Find(element, "display").value == "none" || !values_.Applies(element) ||
+        style_.Find(element, "opacity").value == "0") {
+      return Ok{};
+    }
     if (IsOneOf(element.name, kNoCurves) || IsOneOf(element.name, kMoving)) {
       seen_.emplace(element.name, index);
       return Ok{};
@@ -95,6 +105,8 @@ class SvgReader {
     const std::string visibility = style_.Find(element, "visibility").value;
     if (visibility == "visible") state.visible = true;
     if (visibility == "hidden" || visibility == "collapse") state.visible = false;
+    state.filled = Paints(element, "fill", state.filled);
+    state.stroked = Paints(element, "stroke", state.stroked);
     const bool viewport = element.name == "svg" || (element.name == "symbol" && state.user);
     const bool group = element.name == "g" || element.name == "a" || element.name == "switch";
     const bool use = element.name == "use";
@@ -112,6 +124,13 @@ class SvgReader {
     }
     if (viewport || group) return DrawInside(index, state);
     return state.visible ? DrawShape(index, state) : Result<>(Ok{});
+  }
+
+  // Paint is inherited; none and transparent are no paint.
+  bool Paints(const XmlElement& element, const char* property, bool around) const {
+    const std::string value = style_.Find(element, property).value;
+    if (value.empty() || value == "inherit") return around;
+    return value != "none" && value != "transparent";
   }
 
   Result<> DrawInside(size_t index, State state) {
@@ -164,7 +183,8 @@ class SvgReader {
         seen_.emplace(elements_[i].name, i);
       }
     }
-    pen_.SetMatrix(state.matrix);
+    const size_t before = pen_.size();
+    pen_.Start(state.matrix, state.filled || state.stroked);
     SvgFault fault;
     if (element.name == "path" || element.name == "polyline" || element.name == "polygon") {
       const char* attribute = element.name == "path" ? "d" : "points";
@@ -186,6 +206,7 @@ class SvgReader {
         return Fail(element, std::move(message));
       }
     }
+    if (!(state.filled || state.stroked) && pen_.size() > before) seen_.emplace(kUnpainted, index);
     if (pen_.beyond()) return Fail(element, "a point lies beyond 1e15 after its transforms");
     if (pen_.full()) return TooManyVertices(document_.PlaceOf(element));
     if (pen_.size() > limits::kCurves) {
@@ -207,11 +228,12 @@ class SvgReader {
   void AddNotes() {
     for (const auto& [name, index] : seen_) {
       std::string note;
-      const bool cuts = IsOneOf(name, kCutting);
-      note.append(cuts ? "" : "<").append(name).append(cuts ? "" : ">");
-      note += cuts                     ? " cuts nothing off: curves stay whole"
-              : IsOneOf(name, kMoving) ? " moves nothing here"
-                                       : " is passed over: it is no curve";
+      const bool plain = name == kUnpainted || IsOneOf(name, kCutting);
+      note.append(plain ? "" : "<").append(name).append(plain ? "" : ">");
+      if (name == kUnpainted) note += " with neither fill nor stroke is passed over";
+      if (IsOneOf(name, kCutting)) note += " cuts nothing off: curves stay whole";
+      if (IsOneOf(name, kMoving)) note += " moves nothing here";
+      if (IsOneOf(name, kNoCurves)) note += " is passed over: it is no curve";
       shape_.notes.push_back({document_.PlaceOf(elements_[index]), std::move(note)});
     }
   }
