@@ -65,13 +65,12 @@ std::vector<Case> Cases() {
        small + "objects { key { frame: 1 shape { primitive { kind: GRID } } } "
                "key { frame: 3 shape { primitive { kind: GRID segments: 3 } } } }",
        "key[2]"},
-      {"ramp out of order at a key",
-       small + "objects { name: \"g\" shape { primitive { kind: GRID } } "
-               "material { ramp { height: 0 } ramp { height: 1 } } } "
-               "track { path: \"objects[g].material.ramp[1].height\" "
-               "key { frame: 1 value: 0 } key { frame: 2 value: 3 } "
-               "key { frame: 3 value: 0 } }",
-       "frame 2"},
+      {"ramp out of order at a key, far from the frames of an even choice",
+       "output { width: 48 height: 32 samples: 1 frames: 1000 } objects { name: \"g\" shape { "
+       "primitive { kind: GRID } } material { ramp { height: 0 } ramp { height: 1 } } } "
+       "track { path: \"objects[g].material.ramp[1].height\" key { frame: 499 value: 0 } "
+       "key { frame: 500 value: 3 } key { frame: 501 value: 0 } }",
+       "frame 500"},
       {"line too wide for the picture",
        "output { width: 64 height: 9000 samples: 1 } objects { shape { "
        "polyline { point {} point { x: 1 } } } material { line_width: 900 } }",
@@ -133,6 +132,21 @@ TEST(CheckRenderTest, DefectsOfTheShapesThatASceneNamesAreFound) {
   const ProgramRun json = RunFjord({"check", "--json", scene});
   EXPECT_THAT(json.out, HasSubstr("bad.obj\""));
   EXPECT_THAT(json.out, HasSubstr("\"line\": 4"));
+}
+
+// That a file can not be read is an error of the run, not a defect; the others are still checked.
+TEST(CheckRenderTest, FilesThatCanNotBeReadAreSaidOnStandardError) {
+  const ScratchFolder folder;
+  const std::string good = folder.Write("s.scene", std::string(kSmall) + kGrid);
+  const std::string gone = folder / "gone.scene";
+  const ProgramRun run = RunFjord({"check", gone, folder.path(), good});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.out, good + ": good\n");
+  EXPECT_THAT(run.err, HasSubstr(gone + ": error: there is no such file"));
+  EXPECT_THAT(run.err, HasSubstr("this is a folder"));
+  const ProgramRun json = RunFjord({"check", "--json", gone, good});
+  EXPECT_EQ(json.code, 1);
+  EXPECT_THAT(json.out, HasSubstr("there is no such file"));
 }
 
 // A flight that ends just over the ground: fine all along under SHOT, by the frame under ADAPTIVE.

@@ -171,6 +171,25 @@ TEST(ShadowTest, D4_OnePictureForEveryTileThreadAndPatch) {
   }
 }
 
+// Tiles of one renderer share the maps that were drawn when it was made: a tile's own time and
+// triangles do not hold them, and its shadows are the picture's.
+TEST(ShadowTest, TilesOfOneRendererShareTheMaps) {
+  const v1::FrameScene scene = Mixed();
+  const Picture whole = Draw(scene);
+  const auto renderer = FrameRenderer::Make(scene, {.threads = 2});
+  ASSERT_TRUE(renderer.ok());
+  for (const uint32_t x : {0u, 50u, 100u}) {
+    const Result<RenderedFrame> tile = (*renderer)->Tile(x, 0, 50, 101, {.threads = 1});
+    ASSERT_TRUE(tile.ok());
+    for (uint32_t y = 0; y < 101; ++y) {
+      for (uint32_t i = 0; i < 50; ++i) {
+        ASSERT_EQ(At(tile->picture, i, y), At(whole, x + i, y)) << x + i << ' ' << y;
+      }
+    }
+  }
+  EXPECT_FALSE((*renderer)->Tile(150, 0, 1, 1, {}).ok());
+}
+
 // What comes and goes elsewhere moves the map, not its grid.
 TEST(ShadowTest, TexelsStayWhereTheyAreInTheWorld) {
   const v1::FrameScene scene = Mixed();
