@@ -178,6 +178,7 @@ TEST(SvgFileTest, EveryFaultIsNamedWithItsPlace) {
       {"<svg>\n<path d=\"M0 0\nL1 x\"/></svg>", "a.svg:3:4", "'x' is not a number"},
       {"<svg><path d=\"L1 1\"/></svg>", "a.svg:1:15", "starts with M"},
       {"<svg><path d=\"M0 0A1 1 0 2 0 2 2\"/></svg>", "a.svg:1:26", "a flag of an arc is 0 or 1"},
+      {"<svg><path d=\"M0 0A1 1 0 .5 0 2 2\"/></svg>", "a.svg:1:26", "a flag of an arc is 0 or 1"},
       {"<svg><path d=\"M0 0A1 1 0 10\"/></svg>", "a.svg:1:28", "a number is missing"},
       {"<svg><path d=\"M0 0 K1 1\"/></svg>", "a.svg:1:20", "'K' is no path command"},
       {"<svg><path d=\"M0 0 L1e308 1\"/></svg>", "a.svg:1:21", "too large"},
