@@ -25,7 +25,7 @@ struct Magic {
   Known known;
 };
 
-using std::string_view_literals::operator""sv;
+using namespace std::string_view_literals;
 
 constexpr Magic kMagics[] = {
     {"\x89PNG\r\n"sv, {"a PNG picture", Use::kTerrain}},

@@ -16,7 +16,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 nlohmann::json JsonOf(const ProgramRun& run) {
-  const nlohmann::json json = nlohmann::json::parse(run.out, nullptr, false);
+  nlohmann::json json = nlohmann::json::parse(run.out, nullptr, false);
   EXPECT_FALSE(json.is_discarded()) << run.out << run.err;
   return json;
 }

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using std::string_literals::operator""s;
+using namespace std::string_literals;
 
 std::string BinaryStl() {
   std::string bytes(80, ' ');

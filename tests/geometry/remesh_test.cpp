@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
+#include <random>
 #include <vector>
 
 #include "engine/geometry/border.h"
@@ -221,6 +221,52 @@ TEST(RemeshTest, EdgesOfNoPairStayWhole) {
   const EdgeTable table(even);
   for (const Edge& edge : table.edges()) of_three += edge.use_count == 3 ? 1 : 0;
   EXPECT_EQ(of_three, 1u);
+}
+
+// Stars with spikes, bays and points next to one another keep all that is promised.
+TEST(RemeshTest, AnyOutlineKeepsItsShape) {
+  std::minstd_rand random(5);
+  const auto draw = [&random] { return random() / double{std::minstd_rand::max()}; };
+  for (int round = 0; round < 60; ++round) {
+    Mesh star;
+    std::vector<uint32_t> corners;
+    double angle = 0;
+    while (angle < 2 * kPi - .001 && corners.size() < 200) {
+      const double radius = .05 + draw() * draw();
+      corners.push_back(static_cast<uint32_t>(star.points.size()));
+      star.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+      angle += draw() < .2 ? .001 : .001 + draw();
+    }
+    star.AddFace(corners);
+    const double longest = .05 + draw();
+    const Mesh even = Remesh(star, longest).value();
+    EXPECT_NEAR(AreaOf(even), AreaOf(star), 1e-9) << round;
+    EXPECT_LE(LongestEdge(even), longest) << round;
+    EXPECT_EQ(CountMesh(even).euler, 1) << round;
+    EXPECT_LT(even.points.size(), 20'000u) << round;
+  }
+}
+
+// Triangles anyhow, as damaged files have them: the work ends, and no point is lost.
+TEST(RemeshTest, AnyTrianglesEndTheWork) {
+  std::minstd_rand random(6);
+  for (int round = 0; round < 300; ++round) {
+    Mesh soup;
+    const bool flat = round % 2 == 0;
+    const uint32_t points = 4 + random() % 12;
+    for (uint32_t i = 0; i < points; ++i) {
+      soup.points.emplace_back(random() % 7, random() % 7, flat ? 0 : random() % 3);
+    }
+    for (uint32_t f = random() % 20 + 1; f > 0; --f) {
+      const uint32_t a = random() % points, b = random() % points, c = random() % points;
+      if (a != b && b != c && c != a) soup.AddFace(Triangle{a, b, c});
+    }
+    const Mesh even = Remesh(soup, .8).value();
+    ASSERT_GE(even.points.size(), points);
+    for (uint32_t i = 0; i < points; ++i) EXPECT_EQ(even.points[i], soup.points[i]);
+    EXPECT_GE(even.FaceCount(), soup.FaceCount());
+    EXPECT_LT(even.points.size(), 100'000u);
+  }
 }
 
 TEST(RemeshTest, TooManyPointsAreRefusedBeforeTheyAreMade) {

@@ -15,8 +15,8 @@ namespace {
 using testing::Animate;
 using testing::FrameOf;
 
-constexpr int kPlaces = 8;  // looked from
-constexpr int kPieces = 4;  // searched for jumps
+constexpr int kPlaces = 6;  // looked from
+constexpr int kPieces = 3;  // searched for jumps
 constexpr int kWidth = 128, kHeight = 72;
 
 // Over the sea, past the shore, up a valley and over the ridge.
