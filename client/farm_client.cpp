@@ -113,7 +113,7 @@ Result<v1::Job> FarmClient::GetJob(const std::string& job) {
   return Finished(status, std::move(response));
 }
 
-Result<std::vector<v1::Job>> FarmClient::ListJobs() {
+Result<std::vector<v1::Job>> FarmClient::ListJobs(std::string* trouble) {
   std::vector<v1::Job> jobs;
   v1::ListJobsRequest request;
   request.set_page_size(kMaxPage);
@@ -125,6 +125,7 @@ Result<std::vector<v1::Job>> FarmClient::ListJobs() {
     });
     if (!status.ok()) return Failure(status);
     jobs.insert(jobs.end(), response.job().begin(), response.job().end());
+    if (trouble != nullptr) *trouble = response.trouble();
     request.set_page_token(response.next_page_token());
   } while (!request.page_token().empty());
   return jobs;
@@ -157,13 +158,14 @@ Result<v1::Job> FarmClient::Command(const v1::CommandRequest& request) {
   return Finished(status, std::move(response));
 }
 
-Result<std::vector<v1::WorkerInfo>> FarmClient::ListWorkers() {
+Result<std::vector<v1::WorkerInfo>> FarmClient::ListWorkers(std::string* trouble) {
   v1::ListWorkersResponse response;
   const grpc::Status status = Persist([&] {
     Call call;
     return jobs_->ListWorkers(&call.context, {}, &response);
   });
   if (!status.ok()) return Failure(status);
+  if (trouble != nullptr) *trouble = response.trouble();
   return std::vector<v1::WorkerInfo>(response.worker().begin(), response.worker().end());
 }
 

@@ -39,10 +39,11 @@ class FarmClient {
 
   Result<v1::SubmitResponse> Submit(const v1::SubmitRequest& request);
   Result<v1::Job> GetJob(const std::string& job);
-  Result<std::vector<v1::Job>> ListJobs();
+  // trouble, if not null: what stands in every job's way, or empty.
+  Result<std::vector<v1::Job>> ListJobs(std::string* trouble = nullptr);
   Result<std::vector<v1::Frame>> ListFrames(const std::string& job);
   Result<v1::Job> Command(const v1::CommandRequest& request);
-  Result<std::vector<v1::WorkerInfo>> ListWorkers();
+  Result<std::vector<v1::WorkerInfo>> ListWorkers(std::string* trouble = nullptr);
   Result<v1::WorkerInfo> CommandWorker(const v1::CommandWorkerRequest& request);
 
   // Calls on_change with each message until the job has ended, `limit` has passed, or on_change

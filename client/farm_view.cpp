@@ -70,7 +70,7 @@ std::string FarmView::RateText(double seconds) const {
     std::snprintf(buffer, sizeof buffer, rate >= 1 ? ", %.1f frames/s" : ", %.1f s a frame",
                   rate >= 1 ? rate : 1 / rate);
     text += buffer;
-    if (left > 0 && job_.state() == v1::RUNNING && job_.eta_ms() == 0)
+    if (left > 0 && job_.state() == v1::RUNNING && job_.eta_ms() == 0 && job_.trouble().empty())
       text += ", " + FormatDuration(left / rate) + " left";
   }
   if (left > 0 && job_.eta_ms() > 0) text += ", " + FormatDuration(job_.eta_ms() / 1000.) + " left";
@@ -80,7 +80,8 @@ std::string FarmView::RateText(double seconds) const {
 std::string FarmView::PlainLine(double seconds) const {
   return Printable(job_.name()) + ": " + JobStateName(job_.state()) + ", " +
          CountsText(job_.frames()) + RateText(seconds) + ", " + std::to_string(workers_alive_) +
-         (workers_alive_ == 1 ? " worker" : " workers");
+         (workers_alive_ == 1 ? " worker" : " workers") +
+         (job_.trouble().empty() ? "" : "; trouble: " + Printable(job_.trouble()));
 }
 
 std::vector<std::string> FarmView::FrameMap(const ViewStyle& style, size_t rows) const {
@@ -135,6 +136,7 @@ std::vector<std::string> FarmView::Lines(const ViewStyle& style, double seconds)
       frames.total() == 0 ? 0 : static_cast<double>(frames.done()) / frames.total();
   lines.push_back(Cut((room >= 10 ? FormatBar(share, room) + "  " : "") + text, width));
   for (std::string& row : FrameMap(style, kMapRows)) lines.push_back(std::move(row));
+  if (!job_.trouble().empty()) lines.push_back(Cut("trouble: " + Printable(job_.trouble()), width));
   size_t shown = 0;
   for (const v1::WorkerInfo& worker : workers_) {
     if (worker.state() == v1::WorkerInfo::GONE) continue;

@@ -106,6 +106,12 @@ Result<v1::Job> FollowJob(FarmClient& client, const std::string& job) {
       lost = false;
     }
     if (watched.ok()) continue;
+    if (watched.error().code == ErrorCode::kLimit) {  // as a full disk: whoever waits goes on
+      if (!lost) console::Note(watched.error().message + "; waiting");
+      lost = true;
+      std::this_thread::sleep_for(kBeforeRetry);
+      continue;
+    }
     if (watched.error().code != ErrorCode::kUnavailable || !ever) return watched.error();
     const double silent = std::chrono::duration<double>(Clock::now() - last_heard).count();
     if (silent > client.patience_seconds()) return watched.error();

@@ -81,10 +81,11 @@ nlohmann::ordered_json JobJson(const v1::Job& job) {
           {"ended_unix_ms", job.ended_unix_ms()},
           {"render_ms", job.render_ms()},
           {"eta_ms", job.eta_ms()},
-          {"error", job.error()}};
+          {"error", job.error()},
+          {"trouble", job.trouble()}};
 }
 
-nlohmann::ordered_json WorkerJson(const v1::WorkerInfo& worker) {
+nlohmann::ordered_json WorkerJson(const v1::WorkerInfo& worker, const std::string& trouble) {
   nlohmann::ordered_json holding = nlohmann::ordered_json::array();
   for (const v1::Holding& held : worker.holding())
     holding.push_back({{"job", held.job_id()}, {"frame", held.frame()}});
@@ -96,7 +97,8 @@ nlohmann::ordered_json WorkerJson(const v1::WorkerInfo& worker) {
           {"tags", std::vector<std::string>(worker.tag().begin(), worker.tag().end())},
           {"holding", std::move(holding)},
           {"frames_done", worker.frames_done()},
-          {"render_ms", worker.render_ms()}};
+          {"render_ms", worker.render_ms()},
+          {"trouble", trouble}};
 }
 
 std::string Column(const std::string& text, size_t width) {

@@ -18,7 +18,8 @@ int ExitCodeOfJob(v1::JobState state);
 
 // The documented form of `status --json`.
 nlohmann::ordered_json JobJson(const v1::Job& job);
-nlohmann::ordered_json WorkerJson(const v1::WorkerInfo& worker);
+// trouble: of the whole farm.
+nlohmann::ordered_json WorkerJson(const v1::WorkerInfo& worker, const std::string& trouble = {});
 
 // Printable, and padded to so many characters.
 std::string Column(const std::string& text, size_t width);

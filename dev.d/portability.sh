@@ -137,6 +137,12 @@ sysroot() {
     cp -a "$dir/lib/." "$dir/usr/lib/"
     rm -rf "$dir/lib"
   fi
+  # A link that is absolute in a package would lead out of this folder.
+  local link target
+  while IFS= read -r link; do
+    target=$(readlink -- "$link")
+    ln -sfn "$dir/usr${target#/usr}" "$link"
+  done < <(find "$dir/usr/lib" -type l -lname '/*')
   rm -rf "$apt"
   printf '%s' "${packages[*]}" >"$dir/complete"
 }

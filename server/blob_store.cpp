@@ -20,8 +20,9 @@ constexpr size_t kCheckBytes = size_t{1} << 20;  // read at a time
 
 Error DiskError(const std::string& doing, const std::string& path, int cause) {
   std::string message = doing + ": " + strerror(cause);
-  if (cause == ENOSPC || cause == EDQUOT) message += "; make room in the coordinator's data folder";
-  return MakeError(ErrorCode::kIo, std::move(message), {path});
+  const bool full = cause == ENOSPC || cause == EDQUOT;
+  if (full) message += "; make room in the coordinator's data folder";
+  return MakeError(full ? ErrorCode::kLimit : ErrorCode::kIo, std::move(message), {path});
 }
 
 Result<> SyncFolder(const std::string& path) {
@@ -51,7 +52,8 @@ Result<> BlobWriter::Append(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t count = write(file_, bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return DiskError("cannot store blob " + digest_.Hex(), path_, errno);
+    if (count < 0)
+      return store_.Told(DiskError("cannot store blob " + digest_.Hex(), path_, errno), size_);
     bytes.remove_prefix(static_cast<size_t>(count));
   }
   return {};
@@ -65,11 +67,12 @@ Result<bool> BlobWriter::Commit() {
   if (const Digest actual = sha_.Finish(); actual != digest_) {
     return Invalid("digest: the bytes announced as " + digest_.Hex() + " are " + actual.Hex());
   }
-  if (fsync(file_) != 0) return DiskError("cannot sync blob " + digest_.Hex(), path_, errno);
+  if (fsync(file_) != 0)
+    return store_.Told(DiskError("cannot sync blob " + digest_.Hex(), path_, errno), size_);
   const std::optional<BlobStore::Stamp> stamp = BlobStore::StampOf(file_);
   if (!stamp) return DiskError("cannot store blob " + digest_.Hex(), path_, errno);
   Result<bool> placed = store_.Place(digest_, path_, *stamp);
-  if (!placed.ok()) return placed;
+  if (!placed.ok()) return store_.Told(placed.error(), size_);
   close(file_);
   file_ = -1;
   return placed;
@@ -139,6 +142,11 @@ std::string BlobStore::FolderOf(const Digest& digest) const {
 
 std::string BlobStore::PathOf(const Digest& digest) const {
   return FolderOf(digest) + "/" + digest.Hex().substr(2);
+}
+
+Error BlobStore::Told(Error error, uint64_t bytes) const {
+  if (error.code == ErrorCode::kLimit && on_full_) on_full_(bytes);
+  return error;
 }
 
 std::optional<uint64_t> BlobStore::SizeOf(const Digest& digest) const {
@@ -221,7 +229,7 @@ Result<std::unique_ptr<BlobWriter>> BlobStore::Begin(const Digest& digest, uint6
     path += std::to_string(++next_tmp_);
   }
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (file < 0) return DiskError("cannot make a file in the store", path, errno);
+  if (file < 0) return Told(DiskError("cannot make a file in the store", path, errno), size);
   return std::unique_ptr<BlobWriter>(new BlobWriter(*this, digest, size, std::move(path), file));
 }
 

@@ -33,7 +33,7 @@ class BlobWriter {
   BlobWriter(const BlobWriter&) = delete;
   BlobWriter& operator=(const BlobWriter&) = delete;
 
-  // kInvalid: more bytes than announced.
+  // kInvalid: more bytes than announced. kLimit: no room.
   Result<> Append(std::string_view bytes);
   // kInvalid: too few bytes, or another digest. True: the blob was there already.
   Result<bool> Commit();
@@ -78,6 +78,8 @@ class BlobStore {
 
   // Called, from any thread, after a blob was found to be gone. Set before others use the store.
   void OnLost(std::function<void(const Digest&)> on_lost) { on_lost_ = std::move(on_lost); }
+  // Called, from any thread, after there was no room for a blob of so many bytes. Set likewise.
+  void OnFull(std::function<void(uint64_t bytes)> on_full) { on_full_ = std::move(on_full); }
 
   bool Has(const Digest& digest) const { return SizeOf(digest).has_value(); }
   std::optional<uint64_t> SizeOf(const Digest& digest) const;
@@ -113,11 +115,13 @@ class BlobStore {
   std::string FolderOf(const Digest& digest) const;
   std::string PathOf(const Digest& digest) const;
   Result<bool> Place(const Digest& digest, const std::string& from, const Stamp& stamp);
+  Error Told(Error error, uint64_t bytes) const;
   void Lose(const Digest& digest, const Stamp& seen, const std::string& why);
 
   const std::string dir_;
   const uint64_t limit_;
   std::function<void(const Digest&)> on_lost_;
+  std::function<void(uint64_t)> on_full_;
 
   mutable std::mutex mutex_;
   std::map<Digest, Known> known_;  // synced and in place

@@ -23,7 +23,7 @@ Coordinator::Coordinator(const MachineConfig& config, Snapshot snapshot, Journal
     : clock_(clock),
       store_(std::move(store)),
       machine_(config, std::move(snapshot), clock.Read()),
-      writer_(journal, std::move(on_failure)) {
+      writer_(journal, std::move(on_failure), store_.on_full) {
   planner_.emplace(frames, [this](Planner::Answer answer) {
     CheckPictures(answer);
     PostInner([answer = std::move(answer)](Machine& machine, Now now) {

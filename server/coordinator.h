@@ -43,6 +43,7 @@ class Coordinator {
   struct Store {
     // Whether a picture can be given out; false: its loss was told (BlobsLost). Any thread.
     std::function<bool(const Digest& blob)> has_picture;
+    std::function<void()> on_full;  // there is no room for the journal. From the writer's thread
   };
   Coordinator(const MachineConfig& config, Snapshot snapshot, Journal& journal,
               FramePlanner& frames, const Clock& clock, Store store,

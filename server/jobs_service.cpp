@@ -82,6 +82,7 @@ grpc::ServerUnaryReactor* JobsService::ListJobs(grpc::CallbackServerContext* con
   const uint32_t size = request->page_size() == 0 ? kDefaultPage : request->page_size();
   const JobId from = request->page_token().empty() ? 1 : *ParseJobId(request->page_token());
   AnswerAfterCommit(coordinator_, reactor, [=](Machine& machine, Now) -> Objection {
+    response->set_trouble(machine.trouble());
     size_t bytes = 0;
     for (auto job = machine.jobs().lower_bound(from); job != machine.jobs().end(); ++job) {
       if (response->job_size() == static_cast<int>(size) || bytes > kPageBytes) {
@@ -153,6 +154,7 @@ grpc::ServerUnaryReactor* JobsService::ListWorkers(grpc::CallbackServerContext* 
                                                    v1::ListWorkersResponse* response) {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   AnswerAfterCommit(coordinator_, reactor, [response](Machine& machine, Now) -> Objection {
+    response->set_trouble(machine.trouble());
     for (const auto& [id, worker] : machine.roster().workers()) {
       *response->add_worker() = ViewWorker(machine, worker);
     }

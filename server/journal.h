@@ -32,6 +32,7 @@ class Journal {
 
   // Everything in it, with the epoch taken.
   virtual Result<Snapshot> Load() = 0;
+  // kLimit: no room on the disk; nothing was written, and the same may be tried again.
   virtual Result<> Append(std::span<const Record> records) = 0;
   virtual JournalStats stats() const = 0;
 };

@@ -5,6 +5,7 @@
 
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
+#include <sqlite3.h>
 
 #include <atomic>
 #include <chrono>
@@ -100,7 +101,10 @@ class SqliteJournal : public Journal {
   static uint64_t Bytes(double) { return sizeof(double); }
   Error Failure(const std::string& doing, const std::exception& cause,
                 const std::string& remedy = {}) const {
-    return MakeError(ErrorCode::kIo, doing + ": " + cause.what() + remedy, {path_});
+    const auto* sqlite = dynamic_cast<const soci::sqlite3_soci_error*>(&cause);
+    const bool full = sqlite != nullptr && sqlite->result() == SQLITE_FULL;
+    return MakeError(full ? ErrorCode::kLimit : ErrorCode::kIo,
+                     doing + ": " + cause.what() + remedy, {path_});
   }
 
   std::string path_;

@@ -1,13 +1,19 @@
 #include "server/journal_writer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "server/journal_format.h"
 
 namespace fjord::server {
 
-JournalWriter::JournalWriter(Journal& journal, std::function<void(const Error&)> on_failure)
-    : journal_(journal), on_failure_(std::move(on_failure)), thread_([this] { Run(); }) {}
+JournalWriter::JournalWriter(Journal& journal, std::function<void(const Error&)> on_failure,
+                             std::function<void()> on_full, std::chrono::milliseconds pause)
+    : journal_(journal),
+      on_failure_(std::move(on_failure)),
+      on_full_(std::move(on_full)),
+      pause_(pause),
+      thread_([this] { Run(); }) {}
 
 JournalWriter::~JournalWriter() {
   {
@@ -35,6 +41,8 @@ void JournalWriter::After(Answer answer) {
     const std::lock_guard lock(mutex_);
     if (failure_) {
       result = *failure_;
+    } else if (full_ && appended_ > committed_) {
+      result = *full_;
     } else if (appended_ > committed_) {
       answers_.emplace_back(appended_, std::move(answer));
       return;
@@ -46,6 +54,28 @@ void JournalWriter::After(Answer answer) {
 size_t JournalWriter::waiting() const {
   const std::lock_guard lock(mutex_);
   return records_.size() + answers_.size();
+}
+
+// Until it is written, for good or not at all. Called and left with the lock.
+Result<> JournalWriter::Write(const std::vector<Record>& batch,
+                              std::unique_lock<std::mutex>& lock) {
+  while (true) {
+    lock.unlock();
+    Result<> written = journal_.Append(batch);
+    const bool full = !written.ok() && written.error().code == ErrorCode::kLimit;
+    if (full && on_full_) on_full_();
+    lock.lock();
+    if (!full || stop_) {
+      full_.reset();
+      return written;
+    }
+    full_ = written.error();
+    const auto waiting = std::exchange(answers_, {});
+    lock.unlock();
+    for (const auto& [number, answer] : waiting) answer(written);
+    lock.lock();
+    wake_.wait_for(lock, pause_, [this] { return stop_; });
+  }
 }
 
 void JournalWriter::Run() {
@@ -61,9 +91,7 @@ void JournalWriter::Run() {
       std::move(records_.begin(), end, std::back_inserter(batch));
       records_.erase(records_.begin(), end);
     }
-    lock.unlock();
-    const Result<> written = journal_.Append(batch);
-    lock.lock();
+    const Result<> written = Write(batch, lock);
     std::deque<std::pair<uint64_t, Answer>> ready;
     if (written.ok()) {
       committed_ += batch.size();

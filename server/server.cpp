@@ -15,6 +15,7 @@
 #include "proto/fjord/protocol.h"
 #include "server/blobs_service.h"
 #include "server/data_dir.h"
+#include "server/disk_watch.h"
 #include "server/engine_planner.h"
 #include "server/jobs_service.h"
 #include "server/leases_service.h"
@@ -54,6 +55,11 @@ class ServerImpl : public Server {
 
  private:
   Result<> Bind();
+  // Who hears of a full disk; null: nobody.
+  void TellTroubleTo(Coordinator* coordinator) {
+    const std::lock_guard lock(told_mutex_);
+    told_ = coordinator;
+  }
 
   ServerConfig config_;
   SystemClock clock_;
@@ -61,11 +67,14 @@ class ServerImpl : public Server {
   uint64_t epoch_ = 0;
   std::mutex stop_mutex_;
   bool stopped_ = false;
+  std::mutex told_mutex_;
+  Coordinator* told_ = nullptr;  // guarded by told_mutex_
 
   // In the order of their making; each needs those above it.
   std::unique_ptr<DataDir> data_;
   std::unique_ptr<Journal> journal_;
   std::unique_ptr<BlobStore> blobs_;
+  std::unique_ptr<DiskWatch> disk_;
   std::unique_ptr<EnginePlanner> engine_planner_;
   std::unique_ptr<IoPool> pool_;
   std::unique_ptr<Coordinator> coordinator_;
@@ -105,14 +114,23 @@ Result<> ServerImpl::Start() {
   spdlog::info("epoch {}: {} jobs, {} pictures known, {} blobs", epoch_, snapshot->jobs.size(),
                snapshot->results.size(), blobs_->count());
   pool_ = std::make_unique<IoPool>(config_.io_threads, kMaxDiskWork);
+  disk_ = std::make_unique<DiskWatch>(config_.data_dir, [this](const std::string& trouble) {
+    const std::lock_guard lock(told_mutex_);
+    if (told_ != nullptr) {
+      told_->PostInner([trouble](Machine& machine, Now) { machine.Trouble(trouble); });
+    }
+  });
+  blobs_->OnFull([this](uint64_t bytes) { disk_->Full(bytes); });
   const std::vector<Digest> lost = LostPictures(*snapshot, *blobs_);
   coordinator_ = std::make_unique<Coordinator>(
       config_.machine, std::move(*snapshot), *journal_, *config_.planner, clock_,
-      Coordinator::Store{[this](const Digest& blob) { return blobs_->Check(blob); }},
+      Coordinator::Store{[this](const Digest& blob) { return blobs_->Check(blob); },
+                         [this] { disk_->Full(0); }},
       [this](const Error& error) {
         spdlog::critical("{}", error.ToString());
         if (config_.on_failure) config_.on_failure(error);
       });
+  TellTroubleTo(coordinator_.get());
   blobs_->OnLost([coordinator = coordinator_.get()](const Digest& blob) {
     coordinator->PostInner([blob](Machine& machine, Now now) { machine.BlobsLost({blob}, now); });
   });
@@ -160,6 +178,7 @@ void ServerImpl::Stop() {
     grpc_->Wait();
     grpc_.reset();
   }
+  TellTroubleTo(nullptr);
   coordinator_.reset();
   pool_.reset();
   if (journal_ != nullptr) {

@@ -33,7 +33,7 @@ std::string ErrorOf(const Job& job, uint32_t index) {
 
 // Milliseconds until the job ends as things go; 0: unknown.
 uint32_t Eta(const Machine& machine, const Job& job) {
-  if (job.ended() || job.rendered == 0) return 0;
+  if (job.ended() || job.rendered == 0 || !machine.trouble().empty()) return 0;
   uint64_t usable = 0;
   for (const auto& [id, session] : machine.roster().sessions()) {
     usable += machine.roster().FindWorker(session.worker)->usable();
@@ -66,6 +66,7 @@ v1::Job ViewJob(const Machine& machine, const Job& job) {
   view.set_ended_unix_ms(job.row.ended_unix_ms);
   view.set_render_ms(job.render_ms);
   view.set_eta_ms(Eta(machine, job));
+  if (!job.ended()) view.set_trouble(machine.trouble());
   if (!job.row.error.empty()) {
     view.set_error(job.row.error);
   } else if (!job.failed.empty()) {

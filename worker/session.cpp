@@ -95,8 +95,9 @@ std::optional<Session::Sent> Session::Judge(Rpc rpc, const grpc::Status& status,
   if (rpc == Rpc::kJoin && status.error_code() == grpc::StatusCode::ABORTED) {
     if (!std::exchange(trouble->waits, true)) spdlog::info("waiting: {}", status.error_message());
   } else if (!stopping() && !std::exchange(trouble->said, true)) {
-    spdlog::warn("the coordinator at {} does not answer ({}); trying again", config_.server,
-                 status.error_message());
+    const bool silent = status.error_code() != grpc::StatusCode::RESOURCE_EXHAUSTED;
+    spdlog::warn("the coordinator at {} {} ({}); trying again", config_.server,
+                 silent ? "does not answer" : "can not take more now", status.error_message());
   }
   if (Pause(trouble->backoff.Next())) return std::nullopt;
   return Sent::kStopped;

@@ -38,7 +38,9 @@ Errors CheckShape(const std::string& path) {
   if (!bytes.ok()) return {bytes.error()};
   const Result<ShapeFile> shape = ReadShape(*bytes, path);
   if (!shape.ok()) return {shape.error()};
-  for (const std::string& note : shape->notes) console::Note(note);
+  for (const ShapeNote& note : shape->notes) {
+    console::Note(note.place.ToString() + ": note: " + note.message);
+  }
   Errors errors;
   for (const MeshDefect& defect : CheckMesh(shape->mesh)) {
     Place place{path, 0, 0};
@@ -182,12 +184,6 @@ Errors CheckFile(const std::string& path, const Options& options, Found* found) 
   return CheckScene(path, options, found);
 }
 
-// The file could not be read: no defect of what it holds.
-bool IsUnread(const std::string& path, const Errors& errors) {
-  if (errors.size() != 1 || errors[0].place.file != path || errors[0].place.line > 0) return false;
-  return errors[0].code == ErrorCode::kNotFound || errors[0].code == ErrorCode::kIo;
-}
-
 // A line a defect: what `check` is asked for, so it goes to standard output.
 std::string ReportOf(const std::string& path, const Errors& errors) {
   if (errors.empty()) return path + ": good\n";
@@ -216,10 +212,6 @@ int RunCheck(const Options& options) {
     if (!found.estimate.is_null()) list.back()["estimate"] = std::move(found.estimate);
     if (options.animation) list.back()["animation"] = std::move(found.motion);
     if (options.json) continue;
-    if (IsUnread(path, errors)) {
-      code = console::Fail(errors);
-      continue;
-    }
     const Result<> printed = console::Print(ReportOf(path, errors));
     if (!printed.ok()) return console::Fail(printed.error());
   }
@@ -246,7 +238,7 @@ void AddCheck(CLI::App& app, Run* run) {
   command->add_flag("--json", options->json, "A list as JSON on standard output");
   command->footer(
       "A defect is a line FILE:LINE:COLUMN: error: what is wrong, on standard output. Exit code 1 "
-      "where there is one, or where a file can not be read, which is said on standard error.\n\n"
+      "where there is one, or where a file can not be read.\n\n"
       "Examples:\n"
       "  fjord check examples/*.scene\n"
       "  fjord check --animation examples/taiwan-rising.scene\n"

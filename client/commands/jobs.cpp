@@ -15,7 +15,8 @@ namespace {
 
 int RunJobs(const FarmOptions& options) {
   FarmClient client(options.server);
-  const Result<std::vector<v1::Job>> jobs = client.ListJobs();
+  std::string trouble;
+  const Result<std::vector<v1::Job>> jobs = client.ListJobs(&trouble);
   if (!jobs.ok()) return console::Fail(jobs.error());
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   std::string text;
@@ -26,6 +27,7 @@ int RunJobs(const FarmOptions& options) {
     text += Column(job.id(), 14) + " " + Column(JobStateName(job.state()), 10) + " " + priority +
             "  " + Column(job.name(), 24) + " " + CountsText(job.frames()) + "\n";
   }
+  if (!trouble.empty()) console::Note("trouble: " + trouble);
   if (text.empty()) console::Note("no jobs");
   const Result<> printed = console::Print(options.json ? list.dump(1) + "\n" : text);
   return printed.ok() ? kExitDone : console::Fail(printed.error());

@@ -32,6 +32,7 @@ std::string Text(const v1::Job& job, const std::vector<v1::Frame>& frames) {
   text += "rendered  " + FormatDuration(static_cast<double>(job.render_ms()) / 1000) +
           " of workers' time\n";
   if (job.eta_ms() > 0) text += "left      " + FormatDuration(job.eta_ms() / 1000.) + "\n";
+  if (!job.trouble().empty()) text += "trouble   " + Printable(job.trouble()) + "\n";
   if (!job.error().empty()) text += "error     " + job.error() + "\n";
   size_t errors = 0;
   for (const v1::Frame& frame : frames) {

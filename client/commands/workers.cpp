@@ -36,14 +36,16 @@ int Show(const FarmOptions& options, const nlohmann::ordered_json& json, const s
 
 int RunList(const Options& options) {
   FarmClient client(options.farm.server);
-  const Result<std::vector<v1::WorkerInfo>> workers = client.ListWorkers();
+  std::string trouble;
+  const Result<std::vector<v1::WorkerInfo>> workers = client.ListWorkers(&trouble);
   if (!workers.ok()) return console::Fail(workers.error());
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   std::string text;
   for (const v1::WorkerInfo& worker : *workers) {
-    list.push_back(WorkerJson(worker));
+    list.push_back(WorkerJson(worker, trouble));
     text += Text(worker);
   }
+  if (!trouble.empty()) console::Note("trouble: " + trouble);
   if (text.empty())
     console::Note("no workers; start one with fjord-worker --server " + client.address());
   return Show(options.farm, list, text);

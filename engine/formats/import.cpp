@@ -228,7 +228,10 @@ Result<std::string> SceneTextFromShape(const ShapeFile& file, const std::string&
     out +=
         "# Fractal knobs from " + text::OneLine(par_path) + "; all others are the method's own.\n";
   }
-  for (const std::string& note : shape.notes) out += "# " + text::OneLine(note) + "\n";
+  for (const ShapeNote& note : shape.notes) {
+    out +=
+        "# Not in the shape: " + text::OneLine(note.place.ToString() + ": " + note.message) + "\n";
+  }
   if (!shape.mesh.face_size.empty()) {
     const std::vector<MeshDefect> defects = CheckMesh(shape.mesh, kMostNotes);
     for (const MeshDefect& defect : defects) {

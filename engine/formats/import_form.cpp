@@ -44,7 +44,9 @@ bool HasSlivers(const Mesh& triangles, double spacing) {
   constexpr size_t kFew = 4;  // one in so many
   const size_t before = CountSlivers(triangles);
   if (before * kFew < triangles.FaceCount()) return false;
-  const Result<Mesh> even = Remesh(triangles, spacing);
+  // What takes many more points than it has is no coarse shape of slivers, and not waited for.
+  const uint64_t most_points = 16 * uint64_t{triangles.points.size()} + 10'000;
+  const Result<Mesh> even = Remesh(triangles, spacing, most_points);
   return even.ok() && CountSlivers(*even) * 2 < before;
 }
 

@@ -14,9 +14,10 @@ inline constexpr size_t kLineBytes = 16u << 20;  // a face or path of a million 
 inline constexpr size_t kHeaderLineBytes = 64u << 10;  // .ply header, .par
 inline constexpr size_t kParBytes = 1u << 20;
 inline constexpr size_t kDepth = 64;  // elements of a .svg within each other, also by `use`
-inline constexpr size_t kXmlItems = 16'000'000;  // elements and attributes of a .svg
-inline constexpr size_t kUsed = 1'000'000;       // elements of a .svg that `use` draws again
-inline constexpr size_t kStyleRules = 1000;      // of a .svg, that move or hide something
+inline constexpr size_t kXmlItems = 16'000'000;    // elements and attributes of a .svg
+inline constexpr size_t kUsed = 1'000'000;         // elements of a .svg that `use` draws again
+inline constexpr size_t kStyleRules = 10'000;      // of a .svg, that hide, move or paint something
+inline constexpr size_t kStyleLooks = 10'000'000;  // times that a rule is held against an element
 // Anything larger cannot be meant: squares of it still fit a double with room to spare.
 inline constexpr double kCoordinate = 1e15;
 

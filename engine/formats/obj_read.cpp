@@ -140,7 +140,7 @@ class ObjReader {
 
   // Said once a file.
   void Note(const text::Word& word, bool* said, const char* message) {
-    if (!*said) shape_.notes.push_back(At(word.column).ToString() + ": note: " + message);
+    if (!*said) shape_.notes.push_back({At(word.column), message});
     *said = true;
   }
 

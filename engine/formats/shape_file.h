@@ -16,6 +16,12 @@
 
 namespace fjord {
 
+// What the file shows and a shape does not hold, in words, where it is met first.
+struct ShapeNote {
+  Place place;
+  std::string message;
+};
+
 // A file holds a mesh (with faces), curves, or both. face_line[f] is the text line of face f, and
 // vertex_line[v] of vertex v, for messages; empty for binary files.
 struct ShapeFile {
@@ -27,8 +33,7 @@ struct ShapeFile {
   // file, 255 for the shortest form, so that a file made by hand comes back as it was written. Not
   // needed for writing.
   std::vector<uint8_t> decimals;
-  // Lines for people, "a.svg:3:1: note: ...": what the file shows and the shape does not hold.
-  std::vector<std::string> notes;
+  std::vector<ShapeNote> notes;
 };
 
 enum class ShapeFormat { kStd, kEpf, kObj, kPly, kSvg };

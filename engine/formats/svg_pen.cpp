@@ -20,9 +20,10 @@ double Norm(const Vec2& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
 }  // namespace
 
-void SvgPen::SetMatrix(const SvgMatrix& matrix) {
+void SvgPen::Start(const SvgMatrix& matrix, bool painted) {
   End(false);
   matrix_ = matrix;
+  painted_ = painted;
   here_ = start_ = Vec2(0);
 }
 
@@ -125,6 +126,7 @@ void SvgPen::ArcTo(const Vec2& radii, double degrees, bool large, bool clockwise
 void SvgPen::End(bool closed, bool summed) {
   curve_.closed = closed;
   curve_.summed = summed;
+  curve_.painted = painted_;
   // A single point is nothing to draw.
   if (curve_.points.size() >= 2) curves_.push_back(std::move(curve_));
   curve_ = {};
@@ -203,7 +205,14 @@ bool SvgPen::Flatten(const Curve& curve, double size, Polyline* out) {
   return true;
 }
 
+bool SvgPen::LeavesOut() const {
+  const auto painted = [](const Curve& curve) { return curve.painted; };
+  return std::any_of(curves_.begin(), curves_.end(), painted) &&
+         !std::all_of(curves_.begin(), curves_.end(), painted);
+}
+
 bool SvgPen::Take(std::vector<Polyline>* curves) {
+  if (LeavesOut()) std::erase_if(curves_, [](const Curve& curve) { return !curve.painted; });
   const double size = Size();
   for (Curve& curve : curves_) {
     Polyline line;

@@ -23,8 +23,9 @@ struct SvgEllipse {
 
 class SvgPen {
  public:
-  // What is drawn next is in coordinates that `matrix` maps to the drawing's. Ends the curve.
-  void SetMatrix(const SvgMatrix& matrix);
+  // What is drawn next is in coordinates that `matrix` maps to the drawing's, and `painted`, or
+  // nothing of it is seen. Ends the curve.
+  void Start(const SvgMatrix& matrix, bool painted);
 
   void MoveTo(const Vec2& to);
   void LineTo(const Vec2& to);
@@ -47,8 +48,11 @@ class SvgPen {
 
   // How many curves have been drawn.
   size_t size() const { return curves_.size(); }
-  // All curves of two points or more, y turned up. False where they have more points than a file
-  // may hold.
+  // Curves of both kinds have been drawn: those that are not painted will be left out.
+  bool LeavesOut() const;
+
+  // All curves of two points or more, y turned up; where there are painted ones, only these. False
+  // where they have more points than a file may hold.
   bool Take(std::vector<Polyline>* curves);
 
  private:
@@ -62,7 +66,7 @@ class SvgPen {
   struct Curve {
     std::vector<Vec2> points;
     std::vector<Bend> bends;
-    bool closed = false, summed = false;
+    bool closed = false, summed = false, painted = true;
   };
 
   void Begin();
@@ -74,6 +78,7 @@ class SvgPen {
   static Vec2 PointOf(const Vec2& from, const Vec2& to, const Bend& bend, double t);
 
   SvgMatrix matrix_;
+  bool painted_ = true;
   Vec2 here_{0}, start_{0};  // not mapped
   Curve curve_;
   std::vector<Curve> curves_;

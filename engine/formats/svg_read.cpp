@@ -6,12 +6,11 @@
 
 #include "engine/formats/limits.h"
 #include "engine/formats/readers.h"
-#include "engine/formats/svg_box.h"
 #include "engine/formats/svg_path.h"
 #include "engine/formats/svg_pen.h"
 #include "engine/formats/svg_shapes.h"
 #include "engine/formats/svg_style.h"
-#include "engine/formats/svg_value.h"
+#include "engine/formats/svg_values.h"
 #include "engine/formats/text.h"
 #include "engine/formats/xml_document.h"
 
@@ -25,6 +24,7 @@ constexpr std::array<std::string_view, 3> kNoCurves = {"text", "image", "foreign
 constexpr std::array<std::string_view, 5> kMoving = {"animate", "animateTransform", "animateMotion",
                                                      "animateColor", "set"};
 constexpr std::array<std::string_view, 2> kCutting = {"clip-path", "mask"};
+constexpr std::string_view kUnpainted = "a curve";
 
 template <size_t n>
 bool IsOneOf(std::string_view word, const std::array<std::string_view, n>& words) {
@@ -34,7 +34,7 @@ bool IsOneOf(std::string_view word, const std::array<std::string_view, n>& words
 class SvgReader {
  public:
   explicit SvgReader(const XmlDocument& document)
-      : document_(document), elements_(document.elements()), style_(document) {}
+      : document_(document), elements_(document.elements()), style_(document), values_(style_) {}
 
   Result<ShapeFile> Read() {
     const XmlElement& outer = elements_[0];
@@ -45,13 +45,16 @@ class SvgReader {
       if (!type.empty() && type != "text/css") continue;
       if (auto ok = style_.AddSheet(element); !ok) return ok.error();
     }
-    if (auto ok = Draw(0, {}); !ok) return ok.error();
+    // The outer one keeps the coordinates of its content: its size on a page bends nothing.
+    State state;
+    state.view = values_.OuterViewport(outer);
+    if (auto ok = Draw(0, state); !ok) return ok.error();
+    if (!pen_.LeavesOut()) seen_.erase(kUnpainted);
     if (!pen_.Take(&shape_.curves)) return TooManyVertices(document_.PlaceOf(outer));
     if (shape_.curves.empty()) {
       return Fail(outer,
-                  "nothing of the drawing is a curve of two points or more: paths, "
-                  "polylines, polygons, lines, rectangles, circles and ellipses are" +
-                      std::string(seen_.empty() ? "" : "; text and pictures are not"));
+                  "nothing of the drawing is a curve of two points or more: paths, polylines, "
+                  "polygons, lines, rectangles, circles and ellipses are, text is not");
     }
     AddNotes();
     return std::move(shape_);
@@ -63,22 +66,13 @@ class SvgReader {
     SvgMatrix matrix;
     SvgViewport view;
     bool visible = true;
+    bool filled = true, stroked = false;
     size_t depth = 0;
     const XmlElement* user = nullptr;  // the <use> whose target is drawn
   };
 
   Error Fail(const XmlElement& element, std::string message) const {
     return Invalid(std::move(message), document_.PlaceOf(element));
-  }
-  Error Fail(const XmlElement& element, std::string_view attribute, const SvgFault& fault) const {
-    return Invalid(fault.message, document_.PlaceIn(element, attribute, fault.offset));
-  }
-  Error Fail(const XmlElement& element, const char* name, const SvgProperty& property,
-             const SvgFault& fault) const {
-    if (!property.attribute) {
-      return Fail(element, std::string(name) + " in a style: " + fault.message);
-    }
-    return Fail(element, name, SvgFault{fault.offset + property.offset, fault.message});
   }
 
   static bool IsSvg(const XmlElement& element) {
@@ -92,11 +86,18 @@ class SvgReader {
       return MakeError(ErrorCode::kLimit, "<use> draws more than 1,000,000 elements",
                        document_.PlaceOf(element));
     }
+    if (style_.looks() > limits::kStyleLooks) {
+      return MakeError(ErrorCode::kLimit, "too many rules of style sheets for too many elements",
+                       document_.PlaceOf(element));
+    }
     if (++state.depth > limits::kDepth) {
       return MakeError(ErrorCode::kLimit, "more than 64 elements within each other, <use> counted",
                        document_.PlaceOf(element));
     }
-    if (style_.Find(element, "display").value == "none" || !Applies(element)) return Ok{};
+    if (style_.Find(element, "display").value == "none" || !values_.Applies(element) ||
+        style_.Find(element, "opacity").value == "0") {
+      return Ok{};
+    }
     if (IsOneOf(element.name, kNoCurves) || IsOneOf(element.name, kMoving)) {
       seen_.emplace(element.name, index);
       return Ok{};
@@ -104,20 +105,32 @@ class SvgReader {
     const std::string visibility = style_.Find(element, "visibility").value;
     if (visibility == "visible") state.visible = true;
     if (visibility == "hidden" || visibility == "collapse") state.visible = false;
+    state.filled = Paints(element, "fill", state.filled);
+    state.stroked = Paints(element, "stroke", state.stroked);
     const bool viewport = element.name == "svg" || (element.name == "symbol" && state.user);
     const bool group = element.name == "g" || element.name == "a" || element.name == "switch";
     const bool use = element.name == "use";
     if (!viewport && !group && !use && !IsSvgShape(element.name)) return Ok{};
     NoteCuts(index);
-    if (auto ok = Transform(element, &state); !ok) return ok;
+    if (auto ok = values_.Transform(element, state.view, &state.matrix); !ok) return ok;
     if (use) return DrawUse(element, state);
-    if (viewport) {
+    if (viewport && state.depth > 1) {
       bool empty = false;
-      if (auto ok = EnterViewport(element, &state, &empty); !ok) return ok;
+      if (auto ok = values_.InnerViewport(element, state.user, &state.view, &state.matrix, &empty);
+          !ok) {
+        return ok;
+      }
       if (empty) return Ok{};
     }
     if (viewport || group) return DrawInside(index, state);
     return state.visible ? DrawShape(index, state) : Result<>(Ok{});
+  }
+
+  // Paint is inherited; none and transparent are no paint.
+  bool Paints(const XmlElement& element, const char* property, bool around) const {
+    const std::string value = style_.Find(element, property).value;
+    if (value.empty() || value == "inherit") return around;
+    return value != "none" && value != "transparent";
   }
 
   Result<> DrawInside(size_t index, State state) {
@@ -126,138 +139,8 @@ class SvgReader {
     for (size_t i = index + 1; i < element.end; i = elements_[i].end) {
       if (auto ok = Draw(i, state); !ok) return ok;
       // Of a switch only the first that applies is drawn.
-      if (element.name == "switch" && IsSvg(elements_[i]) && Applies(elements_[i])) break;
+      if (element.name == "switch" && IsSvg(elements_[i]) && values_.Applies(elements_[i])) break;
     }
-    return Ok{};
-  }
-
-  // By conditional attributes: no extension is known, and the language is English.
-  bool Applies(const XmlElement& element) const {
-    if (!document_.Attribute(element, "requiredExtensions").empty()) return false;
-    const std::string_view languages = document_.Attribute(element, "systemLanguage");
-    if (languages.empty()) return true;
-    for (size_t at = 0; at < languages.size();) {
-      const size_t end = std::min(languages.find(',', at), languages.size());
-      const size_t first = languages.find_first_not_of(' ', at);
-      if (first != languages.npos && languages.substr(first, 2) == "en") return true;
-      at = end + 1;
-    }
-    return false;
-  }
-
-  Result<> Transform(const XmlElement& element, State* state) const {
-    for (const char* name : {"translate", "rotate", "scale", "offset", "offset-path", "d"}) {
-      if (!style_.IsStyled(element)) break;
-      const std::string value = style_.Find(element, name).value;
-      if (value.empty() || value == "none") continue;
-      return Fail(element, std::string(name) + " in a style is not read; write it as " +
-                               (name[0] == 'd' ? "an attribute" : "a transform"));
-    }
-    const SvgProperty transform = style_.Find(element, "transform");
-    if (!transform.given()) return Ok{};
-    SvgMatrix own;
-    if (const SvgFault fault = ParseTransform(transform.value, state->view, &own); !fault.ok()) {
-      return Fail(element, "transform", transform, fault);
-    }
-    const std::string box = style_.Find(element, "transform-box").value;
-    if (!box.empty() && box != "view-box") {
-      return Fail(element, "a transform by the box " + text::Quoted(box) +
-                               " is not read; apply transforms before saving");
-    }
-    const SvgProperty given = style_.Find(element, "transform-origin");
-    Vec2 origin(0);
-    if (given.given()) {
-      if (const SvgFault fault = ParseOrigin(given.value, state->view, &origin); !fault.ok()) {
-        return Fail(element, "transform-origin", given, fault);
-      }
-    }
-    if (origin != Vec2(0)) own = Translation(origin) * own * Translation(origin * -1.);
-    state->matrix = state->matrix * own;
-    return Ok{};
-  }
-
-  // A length, in pixels; `value` stays as it is where none is given, or `auto`.
-  Result<bool> Length(const XmlElement& element, const char* name, SvgAxis axis,
-                      const SvgViewport& view, double* value) const {
-    const SvgProperty property = style_.Find(element, name);
-    if (!property.given() || property.value == "auto") return false;
-    if (const SvgFault fault = ParseLength(property.value, view, axis, value); !fault.ok()) {
-      return Fail(element, name, property, fault);
-    }
-    return true;
-  }
-
-  // Width and height of an <svg> or <symbol>: those of its <use> count before its own. False for
-  // a side that is not given.
-  Result<bool> Side(const XmlElement& element, const XmlElement* user, const char* name,
-                    SvgAxis axis, const SvgViewport& view, double* value) const {
-    for (const XmlElement* one : {user, &element}) {
-      if (one == nullptr) continue;
-      const Result<bool> given = Length(*one, name, axis, view, value);
-      if (!given.ok() || *given) {
-        if (given.ok() && *value < 0) return Fail(*one, std::string(name) + " is negative");
-        return given;
-      }
-    }
-    return false;
-  }
-
-  Result<> EnterViewport(const XmlElement& element, State* state, bool* empty) const {
-    SvgViewBox box;
-    const std::string_view text = document_.Attribute(element, "viewBox");
-    if (!text.empty()) {
-      if (const SvgFault fault = ParseViewBox(text, &box); !fault.ok()) {
-        return Fail(element, "viewBox", fault);
-      }
-    }
-    // The outer one keeps the coordinates of its content: its size on a page bends nothing.
-    const bool outer = state->depth == 1;
-    if (outer && !text.empty()) {
-      state->view = {box.size, true};
-      return Ok{};
-    }
-    const SvgViewport around = outer ? SvgViewport() : state->view;
-    SvgViewport own = around;
-    Vec2 at(0);
-    if (!outer && element.name == "svg") {
-      for (int k = 0; k < 2; ++k) {
-        const auto ok =
-            Length(element, k == 0 ? "x" : "y", k == 0 ? SvgAxis::kX : SvgAxis::kY, around, &at[k]);
-        if (!ok.ok()) return ok.error();
-      }
-    }
-    bool given[2] = {false, false};
-    for (int k = 0; k < 2; ++k) {
-      // The outer one's may be a per cent of a window that nobody has.
-      const char* name = k == 0 ? "width" : "height";
-      if (outer && style_.Find(element, name).value.ends_with('%')) continue;
-      const auto side = Side(element, state->user, name, k == 0 ? SvgAxis::kX : SvgAxis::kY, around,
-                             &own.size[k]);
-      if (!side.ok()) return side.error();
-      given[k] = *side;
-    }
-    own.known = (given[0] && given[1]) || (!outer && around.known);
-    if (outer) {
-      state->view = own;
-      return Ok{};
-    }
-    *empty = (given[0] && own.size.x == 0) || (given[1] && own.size.y == 0);
-    if (*empty) return Ok{};
-    SvgMatrix fit;
-    if (!text.empty()) {
-      *empty = box.size.x == 0 || box.size.y == 0;
-      if (*empty) return Ok{};
-      if (!own.known) {
-        return Fail(element, "a viewBox needs width and height, of its <" +
-                                 text::OneLine(element.name) + "> or the outer <svg>");
-      }
-      const SvgFault fault =
-          FitViewBox(box, own.size, document_.Attribute(element, "preserveAspectRatio"), &fit);
-      if (!fault.ok()) return Fail(element, "preserveAspectRatio", fault);
-      own.size = box.size;
-    }
-    state->matrix = state->matrix * Translation(at) * fit;
-    state->view = own;
     return Ok{};
   }
 
@@ -284,11 +167,7 @@ class SvgReader {
       return Fail(element, "<use> of " + text::Quoted(reference) + " uses itself");
     }
     Vec2 at(0);
-    for (int k = 0; k < 2; ++k) {
-      const auto ok = Length(element, k == 0 ? "x" : "y", k == 0 ? SvgAxis::kX : SvgAxis::kY,
-                             state.view, &at[k]);
-      if (!ok.ok()) return ok.error();
-    }
+    if (auto ok = values_.Position(element, state.view, &at); !ok) return ok;
     state.matrix = state.matrix * Translation(at);
     state.user = &element;
     using_.push_back(target->second);
@@ -304,19 +183,22 @@ class SvgReader {
         seen_.emplace(elements_[i].name, i);
       }
     }
-    pen_.SetMatrix(state.matrix);
+    const size_t before = pen_.size();
+    pen_.Start(state.matrix, state.filled || state.stroked);
     SvgFault fault;
     if (element.name == "path" || element.name == "polyline" || element.name == "polygon") {
       const char* attribute = element.name == "path" ? "d" : "points";
       const std::string_view data = document_.Attribute(element, attribute);
       fault = element.name == "path" ? DrawPath(data, &pen_)
                                      : DrawPoints(data, element.name == "polygon", &pen_);
-      if (!fault.ok()) return Fail(element, attribute, fault);
+      if (!fault.ok()) {
+        return Invalid(fault.message, document_.PlaceIn(element, attribute, fault.offset));
+      }
     } else {
       SvgNumbers numbers;
       for (const SvgNumberName& name : NumbersOf(element.name)) {
         double value = 0;
-        const auto given = Length(element, name.name, name.axis, state.view, &value);
+        const auto given = values_.Length(element, name.name, name.axis, state.view, &value);
         if (!given.ok()) return given.error();
         if (*given) numbers[name.name] = value;
       }
@@ -324,6 +206,7 @@ class SvgReader {
         return Fail(element, std::move(message));
       }
     }
+    if (!(state.filled || state.stroked) && pen_.size() > before) seen_.emplace(kUnpainted, index);
     if (pen_.beyond()) return Fail(element, "a point lies beyond 1e15 after its transforms");
     if (pen_.full()) return TooManyVertices(document_.PlaceOf(element));
     if (pen_.size() > limits::kCurves) {
@@ -344,20 +227,21 @@ class SvgReader {
   // One for each kind of thing that is shown and yet is no curve, at the first of its kind.
   void AddNotes() {
     for (const auto& [name, index] : seen_) {
-      std::string note = document_.PlaceOf(elements_[index]).ToString() + ": note: ";
-      if (IsOneOf(name, kCutting)) {
-        note.append(name).append(" cuts nothing off: curves stay whole");
-      } else {
-        note.append("<").append(name).append(">");
-        note += IsOneOf(name, kMoving) ? " moves nothing here" : " is passed over: it is no curve";
-      }
-      shape_.notes.push_back(std::move(note));
+      std::string note;
+      const bool plain = name == kUnpainted || IsOneOf(name, kCutting);
+      note.append(plain ? "" : "<").append(name).append(plain ? "" : ">");
+      if (name == kUnpainted) note += " with neither fill nor stroke is passed over";
+      if (IsOneOf(name, kCutting)) note += " cuts nothing off: curves stay whole";
+      if (IsOneOf(name, kMoving)) note += " moves nothing here";
+      if (IsOneOf(name, kNoCurves)) note += " is passed over: it is no curve";
+      shape_.notes.push_back({document_.PlaceOf(elements_[index]), std::move(note)});
     }
   }
 
   const XmlDocument& document_;
   const std::vector<XmlElement>& elements_;
   SvgStyle style_;
+  const SvgValues values_;
   SvgPen pen_;
   std::map<std::string_view, size_t> ids_;
   std::map<std::string_view, size_t> seen_;  // what notes are about, and the first such element

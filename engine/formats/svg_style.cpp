@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 
 #include "engine/formats/limits.h"
@@ -28,6 +29,9 @@ constexpr std::array<std::string_view, 14> kOfBoth = {"display",
 // Attributes of these names are none, or mean something else.
 constexpr std::array<std::string_view, 6> kOfStyleAlone = {"translate", "rotate",      "scale",
                                                            "offset",    "offset-path", "d"};
+
+// What shows whether something is seen at all.
+constexpr std::array<std::string_view, 3> kPaint = {"fill", "stroke", "opacity"};
 
 template <size_t n>
 bool IsOneOf(std::string_view word, const std::array<std::string_view, n>& words) {
@@ -74,7 +78,7 @@ struct Declaration {
   bool important = false;
 };
 
-// Of those that hide or move something.
+// Of those that hide, move or paint something.
 std::vector<Declaration> DeclarationsOf(std::string_view block) {
   std::vector<Declaration> declarations;
   for (size_t at = 0; at < block.size();) {
@@ -85,7 +89,7 @@ std::vector<Declaration> DeclarationsOf(std::string_view block) {
     if (colon == one.npos) continue;
     Declaration declaration;
     declaration.property = Small(Trimmed(one.substr(0, colon)));
-    if (!IsSvgGeometry(declaration.property)) continue;
+    if (!IsSvgGeometry(declaration.property) && !IsOneOf(declaration.property, kPaint)) continue;
     const std::string value = Small(one.substr(colon + 1));
     const size_t mark = value.find('!');
     declaration.important = mark != value.npos;
@@ -93,6 +97,11 @@ std::vector<Declaration> DeclarationsOf(std::string_view block) {
     declarations.push_back(std::move(declaration));
   }
   return declarations;
+}
+
+bool HasGeometry(const std::vector<Declaration>& declarations) {
+  return std::any_of(declarations.begin(), declarations.end(),
+                     [](const Declaration& one) { return IsSvgGeometry(one.property); });
 }
 
 std::string WithoutComments(std::string_view css) {
@@ -166,7 +175,8 @@ Result<> SvgStyle::AddSheet(const XmlElement& style) {
     for (size_t inner = 0; !still && inner < block.size();) {
       const size_t from = FindOutside(block, "{", inner);
       const size_t to = FindOutside(block, "}", std::min(from + 1, block.size()));
-      if (from < block.size() && !DeclarationsOf(block.substr(from + 1, to - from - 1)).empty()) {
+      if (from < block.size() &&
+          HasGeometry(DeclarationsOf(block.substr(from + 1, to - from - 1)))) {
         return refuse(std::string(head.substr(0, head.find_first_of(" ("))));
       }
       inner = to + 1;
@@ -186,9 +196,10 @@ Result<> SvgStyle::AddRule(std::string_view selectors, std::string_view block,
     if (IsOfMoment(text)) continue;
     Selector selector;
     if (!ParseSelector(text, &selector)) {
-      return Invalid("a style sheet that sets " + declarations[0].property + " for " +
-                         text::Quoted(text) +
-                         " is not read; select by name, class or id, or use style attributes",
+      if (!HasGeometry(declarations)) continue;
+      return Invalid("a style sheet that hides or moves what " + text::Quoted(text) +
+                         " selects is not read; select by name, class or id, or use style "
+                         "attributes",
                      document_.PlaceOf(style));
     }
     const std::string key = !selector.id.empty()        ? "#" + selector.id
@@ -198,7 +209,7 @@ Result<> SvgStyle::AddRule(std::string_view selectors, std::string_view block,
     for (const Declaration& declaration : declarations) {
       if (++count_ > limits::kStyleRules) {
         return MakeError(ErrorCode::kLimit,
-                         "style sheets with more than 1000 rules that hide or move something",
+                         "style sheets with more than 10,000 rules that hide, move or paint",
                          document_.PlaceOf(style));
       }
       Selector own = selector;
@@ -242,6 +253,42 @@ bool SvgStyle::Matches(const Selector& selector, const XmlElement& element) cons
                      [&](const std::string& one) { return HasWord(classes, one); });
 }
 
+void SvgStyle::Collect(const XmlElement& element) const {
+  last_ = &element;
+  said_.clear();
+  std::vector<const Rule*> rules;
+  const auto look = [&](const std::string& key) {
+    const auto at = rules_.find(key);
+    if (at == rules_.end()) return;
+    looks_ += at->second.size();
+    for (const Rule& rule : at->second) {
+      if (Matches(rule.selector, element)) rules.push_back(&rule);
+    }
+  };
+  if (count_ > 0) {
+    look("*");
+    look(std::string(element.name));
+    look("#" + std::string(document_.Attribute(element, "id")));
+    std::set<std::string, std::less<>> classes;
+    const std::string_view words = document_.Attribute(element, "class");
+    for (size_t at = words.find_first_not_of(kBlanks); at < words.size();
+         at = words.find_first_not_of(kBlanks, at)) {
+      const size_t end = std::min(words.find_first_of(kBlanks, at), words.size());
+      classes.emplace(words.substr(at, end - at));
+      at = end;
+    }
+    for (const std::string& name : classes) look("." + name);
+  }
+  std::sort(rules.begin(), rules.end(),
+            [](const Rule* a, const Rule* b) { return a->selector.weight < b->selector.weight; });
+  for (const Rule* rule : rules) said_.push_back({rule->property, rule->value, rule->important});
+  const std::string_view style = document_.Attribute(element, "style");
+  if (style.empty()) return;
+  for (Declaration& one : DeclarationsOf(WithoutComments(style))) {
+    said_.push_back({std::move(one.property), std::move(one.value), one.important});
+  }
+}
+
 SvgProperty SvgStyle::Find(const XmlElement& element, std::string_view property) const {
   SvgProperty found;
   if (!IsOneOf(property, kOfStyleAlone)) {
@@ -251,36 +298,13 @@ SvgProperty SvgStyle::Find(const XmlElement& element, std::string_view property)
     found.attribute = found.given();
     if (found.attribute) found.offset = static_cast<size_t>(value.data() - whole.data());
   }
+  if (!IsStyled(element)) return found;
+  if (last_ != &element) Collect(element);
   bool important = false;
-  const auto take = [&](const std::string& value, bool marked) {
-    if (important && !marked) return;
-    found = {value, false, 0};
-    important = marked;
-  };
-  if (count_ > 0) {
-    std::vector<const Rule*> rules;
-    const auto look = [&](std::string_view key) {
-      const auto at = rules_.find(key);
-      if (at == rules_.end()) return;
-      for (const Rule& rule : at->second) {
-        if (rule.property == property && Matches(rule.selector, element)) rules.push_back(&rule);
-      }
-    };
-    look("*");
-    look(element.name);
-    look("#" + std::string(document_.Attribute(element, "id")));
-    const std::string_view classes = document_.Attribute(element, "class");
-    for (const auto& [key, ignored] : rules_) {
-      if (key[0] == '.' && HasWord(classes, std::string_view(key).substr(1))) look(key);
-    }
-    std::sort(rules.begin(), rules.end(),
-              [](const Rule* a, const Rule* b) { return a->selector.weight < b->selector.weight; });
-    for (const Rule* rule : rules) take(rule->value, rule->important);
-  }
-  const std::string_view style = document_.Attribute(element, "style");
-  if (style.empty()) return found;
-  for (const Declaration& declaration : DeclarationsOf(WithoutComments(style))) {
-    if (declaration.property == property) take(declaration.value, declaration.important);
+  for (const Said& said : said_) {
+    if (said.property != property || (important && !said.important)) continue;
+    found = {said.value, false, 0};
+    important = said.important;
   }
   return found;
 }

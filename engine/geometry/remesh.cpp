@@ -19,9 +19,10 @@ constexpr double kClearlyBetter = 1e-9;  // of a sine: what is as good either wa
 
 constexpr double kSliverCosine = .9659258262890683;  // of 15 degrees
 
-Error TooManyPoints(double longest) {
+Error TooManyPoints(double longest, uint64_t most) {
   return MakeError(ErrorCode::kLimit, "edges no longer than " + std::to_string(longest) +
-                                          " take more than 16,000,000 points; allow longer ones");
+                                          " take more than " + std::to_string(most) +
+                                          " points; allow longer ones");
 }
 
 // Fewer than this can't be, however well they are placed: a triangle of the largest area there is
@@ -53,7 +54,7 @@ class Remesher {
   }
 
   // False where more points would be needed than there may be.
-  bool Run() {
+  bool Run(uint64_t most_points) {
     TurnEdges();
     to_refine_.clear();
     for (uint32_t t = 0; t < mesh_.TriangleCount(); ++t) to_refine_.push_back(t);
@@ -62,7 +63,7 @@ class Remesher {
       to_refine_.pop_front();
       // Where the edge that was halved is not its own, the triangle is asked again.
       while (Refine(t)) {
-        if (mesh_.PointCount() > kMostPoints) return false;
+        if (mesh_.PointCount() > most_points) return false;
       }
     }
     return true;
@@ -140,10 +141,12 @@ class Remesher {
 
 }  // namespace
 
-Result<Mesh> Remesh(const Mesh& mesh, double longest) {
-  if (LeastPoints(mesh, longest) > kMostPoints) return TooManyPoints(longest);
+Result<Mesh> Remesh(const Mesh& mesh, double longest, uint64_t most_points) {
+  if (LeastPoints(mesh, longest) > static_cast<double>(most_points)) {
+    return TooManyPoints(longest, most_points);
+  }
   Remesher remesher(mesh, longest);
-  if (!remesher.Run()) return TooManyPoints(longest);
+  if (!remesher.Run(most_points)) return TooManyPoints(longest, most_points);
   return remesher.Take();
 }
 
@@ -156,10 +159,10 @@ Result<Polyline> DivideCurve(const Polyline& curve, double longest) {
     if (i + 1 == count && !curve.closed) break;
     const Vec3 from = curve.points[i], along = curve.points[i + 1 < count ? i + 1 : 0] - from;
     const double pieces = Length(along) / longest;
-    if (!(pieces < static_cast<double>(kMostPoints))) return TooManyPoints(longest);
+    if (!(pieces < static_cast<double>(kMostPoints))) return TooManyPoints(longest, kMostPoints);
     const auto whole = static_cast<uint64_t>(pieces);
     const uint64_t parts = static_cast<double>(whole) < pieces ? whole + 1 : whole;
-    if (divided.points.size() + parts > kMostPoints) return TooManyPoints(longest);
+    if (divided.points.size() + parts > kMostPoints) return TooManyPoints(longest, kMostPoints);
     for (uint64_t k = 1; k < parts; ++k) {
       divided.points.push_back(from +
                                along * (static_cast<double>(k) / static_cast<double>(parts)));

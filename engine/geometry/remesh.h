@@ -21,12 +21,13 @@ namespace fjord {
 inline constexpr double kEvenAngleCosine = .9396926207859084;  // of 20 degrees
 
 // Triangles only, none with an edge longer than `longest` (> 0). Colours of new points are the mean
-// of their edge's ends. kLimit where that takes more than 16,000,000 points. Needs in-range
-// indices. Edges of three faces and more, or of two that turn against each other, are left as they
-// are.
-Result<Mesh> Remesh(const Mesh& mesh, double longest);
+// of their edge's ends. kLimit where that takes more than `most_points`. Needs in-range indices.
+// Edges of three faces and more, or of two that turn against each other, are left as they are.
+inline constexpr uint64_t kMostRemeshed = 16'000'000;
+Result<Mesh> Remesh(const Mesh& mesh, double longest, uint64_t most_points = kMostRemeshed);
 
-// Each piece longer than `longest` divided into equal ones; points stay. kLimit as above.
+// Each piece longer than `longest` divided into equal ones; points stay. kLimit above kMostRemeshed
+// points.
 Result<Polyline> DivideCurve(const Polyline& curve, double longest);
 
 // Triangles with an angle below 15 degrees.

@@ -57,6 +57,7 @@ class FrameRenderer {
   // One tile alone (x0, y0, width, height in pixels): equals that part of the whole.
   Result<RenderedFrame> Tile(uint32_t x, uint32_t y, uint32_t width, uint32_t height,
                              const RenderOptions& options) const;
+
  private:
   struct Ready;
   explicit FrameRenderer(std::unique_ptr<const Ready> ready);

@@ -77,6 +77,14 @@ bool CheckWritten(const v1::Shape& shape, const Route& route, SceneErrors* error
     errors->Add(corner < 0 ? place : place.Then("v", corner), message);
     sound = false;
   };
+  // As the readers of files have it: what is beyond 1 was not divided by 255.
+  for (int v = 0; v < mesh.color_size() && !errors->Full(); ++v) {
+    const v1::Color& color = mesh.color(v);
+    if (!(color.r() > 1 || color.g() > 1 || color.b() > 1)) continue;
+    errors->Add(route.Then("mesh").Then("color", v),
+                "a vertex has a colour that is not within 0 to 1; divide bytes by 255");
+    return false;
+  }
   for (int f = 0; f < mesh.face_size() && !errors->Full(); ++f) {
     const v1::Face& face = mesh.face(f);
     if (face.v_size() < 3)
@@ -126,6 +134,7 @@ SceneShapes ReadShapes(v1::Scene* scene, const AssetReader& reader,
                        std::map<std::string, std::string>* assets, SceneErrors* errors) {
   SceneShapes shapes;
   std::set<std::string> single;  // files of which curves are taken one by one
+  std::set<std::string> noted;   // files whose notes have been given
   for (int i = 0; i < scene->objects_size(); ++i) {
     for (const auto& [shape, route] : ShapesOf(scene, i)) {
       if (shape->file().curve() > 0) single.insert(shape->file().path());
@@ -151,6 +160,9 @@ SceneShapes ReadShapes(v1::Scene* scene, const AssetReader& reader,
       if (geometry && needs_mesh) geometry = WithMesh(std::move(*geometry));
       if (geometry && !geometry->left_out.empty() && single.count(shape->file().path()) == 0) {
         errors->Note(route.Then("file"), geometry->left_out);
+      }
+      if (geometry && noted.insert(shape->file().path()).second) {
+        for (const std::string& note : geometry->notes) errors->Note(route.Then("file"), note);
       }
       if (geometry) {
         geometries.back() = std::move(*geometry);

@@ -218,6 +218,9 @@ Result<Geometry> FromFile(const v1::File& file, const std::string& bytes) {
   } else {
     return Invalid(file.path() + " has no faces and no curves");
   }
+  for (const ShapeNote& note : read->notes) {
+    geometry.notes.push_back(note.place.ToString() + ": " + note.message);
+  }
   Result<Geometry> checked = Checked(std::move(geometry));
   if (!checked || !file.has_spacing()) return checked;
   return Spaced(std::move(*checked), file.spacing());

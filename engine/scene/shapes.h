@@ -25,7 +25,8 @@ struct Geometry {
   // Drawn from its samples. Points and faces are the corners and the ground of its box then, so
   // that bounds can be had from them.
   std::optional<HeightField> heights;
-  std::string left_out;  // what else its file holds, in words; empty: nothing
+  std::string left_out;            // what else its file holds, in words; empty: nothing
+  std::vector<std::string> notes;  // the reader's, of what the file shows and a shape cannot hold
 };
 
 // The same with heights made into a mesh; kLimit where they are too many for one.

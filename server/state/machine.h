@@ -126,6 +126,8 @@ class Machine {
   // --- the store ---
   // Pictures that are gone: their frames are made again, their keys are known no more (F2).
   void BlobsLost(const std::vector<Digest>& blobs, Now now);
+  // What stands in everybody's way and people should know; empty: nothing any more.
+  void Trouble(std::string trouble);
 
   // --- workers ---
   Answer<std::vector<AttemptId>> Join(const JoinCall& call, Now now);
@@ -162,6 +164,7 @@ class Machine {
   const std::map<JobId, Job>& jobs() const { return jobs_; }
   const Job* FindJob(JobId id) const;
   const Key* FindKey(const Digest& key) const;
+  const std::string& trouble() const { return trouble_; }
   const Roster& roster() const { return roster_; }
   const LeaseTable& leases() const { return leases_; }
   // Frames and jobs looked at so far: what an event costs, whatever the machine's speed. For tests.
@@ -241,6 +244,7 @@ class Machine {
   uint64_t arrivals_ = 0;
   uint64_t work_ = 0;
   bool dispatch_ = false;  // something happened that may let a parked call have work
+  std::string trouble_;
   Effects effects_;
 };
 

@@ -138,6 +138,13 @@ void Machine::Finish(Now now) {
   SettleJobs(now);
 }
 
+void Machine::Trouble(std::string trouble) {
+  if (trouble == trouble_) return;
+  Say(!trouble.empty(), trouble.empty() ? "over: " + trouble_ : trouble);
+  trouble_ = std::move(trouble);
+  for (const JobId id : open_) effects_.changed[id];
+}
+
 Effects Machine::TakeEffects() {
   Effects effects = std::move(effects_);
   effects_ = {};

@@ -1,4 +1,4 @@
-// Checks of one error: its place as "file:line:column" and words of its message.
+// Checks of errors (their place as "file:line:column" and words of their message) and notes.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -7,8 +7,10 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "engine/base/result.h"
+#include "engine/formats/shape_file.h"
 
 namespace fjord {
 
@@ -17,6 +19,14 @@ void ExpectError(const Result<T>& result, const std::string& place, const std::s
   ASSERT_FALSE(result.ok()) << "no error; wanted: " << words;
   EXPECT_EQ(result.error().place.ToString(), place) << result.error().message;
   EXPECT_THAT(result.error().message, testing::HasSubstr(words));
+}
+
+inline std::vector<std::string> NotesOf(const ShapeFile& shape) {
+  std::vector<std::string> notes;
+  for (const ShapeNote& note : shape.notes) {
+    notes.push_back(note.place.ToString() + ": " + note.message);
+  }
+  return notes;
 }
 
 inline std::string ReadTestFile(const std::string& path) {

@@ -85,10 +85,9 @@ TEST(ObjFileTest, WhatIsPassedOverAndDrawsIsNoted) {
   const ShapeFile shape =
       Read("v 0 0 0\nv 1 0 0\nv 0 1 0\np 1\np 2 3\nvp 0.5 1\ncstype bezier\ndeg 3\nend\nf 1 2 3\n")
           .value();
-  EXPECT_THAT(
-      shape.notes,
-      testing::ElementsAre("a.obj:4:1: note: points (p) are passed over: they are no curve",
-                           "a.obj:6:1: note: vp belongs to free-form curves and is passed over"));
+  EXPECT_THAT(NotesOf(shape),
+              testing::ElementsAre("a.obj:4:1: points (p) are passed over: they are no curve",
+                                   "a.obj:6:1: vp belongs to free-form curves and is passed over"));
   EXPECT_TRUE(Read("mtllib a\ns 1\ng b\nv 0 0 0\nv 1 0 0\nl 1 2\n")->notes.empty());
 }
 

@@ -109,7 +109,8 @@ TEST(SvgDrawingTest, ViewportsOfNoSizeDrawNothing) {
 
 TEST(SvgDrawingTest, TheOuterViewportBendsNothing) {
   for (const char* outer : {"<svg x='5' y='9' width='40mm' height='10' viewBox='0 0 4 4'>",
-                            "<svg width='100%' height='100%'>", "<svg viewBox='5 5 1 1'>"}) {
+                            "<svg width='100%' height='100%'>", "<svg viewBox='5 5 1 1'>",
+                            "<svg width='10em' height='-1'>", "<svg viewBox='0 0 100px 50px'>"}) {
     ExpectNear(Curves(outer + std::string("<path d='M0 0H1'/></svg>"))[0].points,
                {{0, 0, 0}, {1, 0, 0}});
   }
@@ -348,12 +349,12 @@ TEST(SvgDrawingTest, WhatIsShownAndYetNoCurveIsNoted) {
                               "<svg>\n<path d='M0 0H1' clip-path='url(#c)'><animate/></path>\n"
                               "<text>a</text><text>b</text>\n<image/><set/></svg>")
                               .value();
-  EXPECT_THAT(shape.notes, testing::UnorderedElementsAre(
-                               "a.svg:2:1: note: clip-path cuts nothing off: curves stay whole",
-                               "a.svg:2:38: note: <animate> moves nothing here",
-                               "a.svg:3:1: note: <text> is passed over: it is no curve",
-                               "a.svg:4:1: note: <image> is passed over: it is no curve",
-                               "a.svg:4:9: note: <set> moves nothing here"));
+  EXPECT_THAT(NotesOf(shape), testing::UnorderedElementsAre(
+                                  "a.svg:2:1: clip-path cuts nothing off: curves stay whole",
+                                  "a.svg:2:38: <animate> moves nothing here",
+                                  "a.svg:3:1: <text> is passed over: it is no curve",
+                                  "a.svg:4:1: <image> is passed over: it is no curve",
+                                  "a.svg:4:9: <set> moves nothing here"));
   EXPECT_TRUE(Read("<svg><path d='M0 0H1' fill='red' clip-path='none'/></svg>")->notes.empty());
 }
 

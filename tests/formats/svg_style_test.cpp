@@ -81,12 +81,53 @@ TEST(SvgStyleTest, SheetsAreReadAsCssIs) {
   ExpectHidden("<path style='/*display:inline*/display:none' d='M0 0H5'/>");
 }
 
+// Icon sets hold a box that nobody sees, for programs that crop; DXF converters paint nothing at
+// all.
+TEST(SvgStyleTest, CurvesWithoutPaintAreLeftOutBesidePaintedOnes) {
+  for (const char* unseen :
+       {"<path fill='none' d='M0 0H5V5z'/>", "<rect width='9' height='9' style='fill:none'/>",
+        "<path d='M0 0H5V5z' fill='transparent' stroke='none'/>",
+        "<g fill='none'><circle r='4'/></g>",
+        "<style>.n{fill:none}</style><circle class='n' r='4'/>",
+        "<g stroke='red'><path fill='none' stroke='none' d='M0 0H5'/></g>"}) {
+    ExpectHidden(unseen);
+    const auto shape = Read("<svg>\n" + std::string(unseen) + "<path d='M0 0H1'/></svg>");
+    ASSERT_EQ(shape->notes.size(), 1u);
+    EXPECT_EQ(shape->notes[0].place.line, 2);
+    EXPECT_EQ(shape->notes[0].message, "a curve with neither fill nor stroke is passed over");
+    // Where nothing is painted, all is read.
+    ExpectShown(unseen);
+    EXPECT_TRUE(Read("<svg>" + std::string(unseen) + "</svg>")->notes.empty());
+  }
+  ExpectHidden("<g opacity='0'><path d='M0 0H5'/></g>");
+  for (const char* seen :
+       {"<g fill='none' stroke='black'><path d='M0 0H5'/></g>",
+        "<g fill='none'><path d='M0 0H5' style='stroke:#000'/></g>",
+        "<g fill='none'><path d='M0 0H5' fill='red'/></g>",
+        "<style>g path{fill:none}.s{stroke:red}</style><path class='s' d='M0 0H5'/>"}) {
+    const auto shape = Read("<svg>" + std::string(seen) + "<path d='M0 0H1'/></svg>");
+    ASSERT_TRUE(shape) << shape.error().ToString();
+    EXPECT_EQ(shape->curves.size(), 2u) << seen;
+    EXPECT_TRUE(shape->notes.empty());
+  }
+}
+
+TEST(SvgStyleTest, ManyRulesForManyElementsAreBounded) {
+  std::string text = "<svg><style>";
+  for (int i = 0; i < 9000; ++i) text += ".a.b" + std::to_string(i) + "{display:none}";
+  text += "</style>";
+  for (int i = 0; i < 1200; ++i) text += "<g class='a'/>";
+  const auto shape = Read(text + "</svg>");
+  ASSERT_FALSE(shape.ok());
+  EXPECT_EQ(shape.error().code, ErrorCode::kLimit) << shape.error().ToString();
+}
+
 TEST(SvgStyleTest, WhatMayHideOrMoveAndIsNotKnownIsRefused) {
   const std::pair<const char*, const char*> cases[] = {
-      {"<style>g .a{display:none}</style>", "sets display for 'g .a'"},
-      {"<style>[x]{visibility:hidden}</style>", "sets visibility for '[x]'"},
-      {"<style>g > path, .a{transform:none}</style>", "sets transform for 'g > path'"},
-      {"<style>.a:nth-child(2){display:none}</style>", "sets display"},
+      {"<style>g .a{display:none}</style>", "hides or moves what 'g .a'"},
+      {"<style>[x]{visibility:hidden}</style>", "hides or moves what '[x]'"},
+      {"<style>g > path, .a{transform:none}</style>", "hides or moves what 'g > path'"},
+      {"<style>.a:nth-child(2){display:none}</style>", "what '.a:nth-child(2)'"},
       {"<style>@media print{.a{display:none}}</style>", "@media"},
       {"<style>@supports (x:y){.a{display:none}}</style>", "@supports"},
       {"<style>@import url(a.css);</style>", "@import"},
@@ -99,8 +140,8 @@ TEST(SvgStyleTest, WhatMayHideOrMoveAndIsNotKnownIsRefused) {
     ExpectError(Read("<svg>\n" + std::string(text) + "</svg>"), "a.svg:2:1", words);
   }
   std::string many = "<svg>\n<style>";
-  for (int i = 0; i < 1001; ++i) many += ".a{display:none}";
-  ExpectError(Read(many + "</style></svg>"), "a.svg:2:1", "more than 1000 rules");
+  for (int i = 0; i < 10001; ++i) many += ".a{display:none}";
+  ExpectError(Read(many + "</style></svg>"), "a.svg:2:1", "more than 10,000 rules");
 }
 
 }  // namespace

@@ -548,6 +548,29 @@ TEST(LoadTest, WhatOfAFileIsLeftOutIsSaid) {
   EXPECT_THAT(mixed.notes[0], HasSubstr("1 curve of the file is left out"));
 }
 
+TEST(LoadTest, WhatAFileShowsAndAShapeCannotHoldIsSaidOnceAFile) {
+  const std::string object = "objects { shape { file { path: \"a.svg\" } } }\n";
+  const LoadResult loaded = LoadSceneText(object + object, "a.scene", [](const v1::File&) {
+    return Result<std::string>("<svg>\n<text/><path d='M0 0L1 1'/></svg>");
+  });
+  ASSERT_TRUE(loaded.ok());
+  ASSERT_EQ(loaded.notes.size(), 1u);
+  EXPECT_THAT(loaded.notes[0], HasSubstr("a.scene:1:19: note: "));
+  EXPECT_THAT(loaded.notes[0], HasSubstr("a.svg:2:1: <text> is passed over"));
+}
+
+TEST(LoadTest, ColoursOfVerticesThatAreBytesAreRefused) {
+  const auto mesh = [](const std::string& color) {
+    return "objects { shape { mesh { point {} point { x: 1 } point { y: 1 }\n"
+           "color { r: 1 } color {} color { " +
+           color + " } face { v: [1, 2, 3] } } } }";
+  };
+  EXPECT_EQ(ErrorsOf(mesh("b: 1")), "");
+  EXPECT_THAT(ErrorsOf(mesh("g: 255")),
+              HasSubstr("shape.mesh.color[3]: a vertex has a colour that is not within 0 to 1"));
+  EXPECT_THAT(ErrorsOf(mesh("g: 255")), HasSubstr("s.scene:2:25: error"));
+}
+
 TEST(LoadTest, ACurveThatIsNotThereIsNamed) {
   const LoadResult none = LoadFile("a.svg", kThreeCurves, "curve: 4");
   ASSERT_EQ(none.errors.size(), 1u);
