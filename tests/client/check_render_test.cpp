@@ -134,16 +134,16 @@ TEST(CheckRenderTest, DefectsOfTheShapesThatASceneNamesAreFound) {
   EXPECT_THAT(json.out, HasSubstr("\"line\": 4"));
 }
 
-// That a file can not be read is an error of the run, not a defect; the others are still checked.
-TEST(CheckRenderTest, FilesThatCanNotBeReadAreSaidOnStandardError) {
+// That a file can not be read is said where defects are, and the others are still checked.
+TEST(CheckRenderTest, FilesThatCanNotBeReadStopNoOther) {
   const ScratchFolder folder;
   const std::string good = folder.Write("s.scene", std::string(kSmall) + kGrid);
   const std::string gone = folder / "gone.scene";
   const ProgramRun run = RunFjord({"check", gone, folder.path(), good});
   EXPECT_EQ(run.code, 1);
-  EXPECT_EQ(run.out, good + ": good\n");
-  EXPECT_THAT(run.err, HasSubstr(gone + ": error: there is no such file"));
-  EXPECT_THAT(run.err, HasSubstr("this is a folder"));
+  EXPECT_THAT(run.out, HasSubstr(gone + ": error: there is no such file"));
+  EXPECT_THAT(run.out, HasSubstr("this is a folder"));
+  EXPECT_THAT(run.out, HasSubstr(good + ": good\n"));
   const ProgramRun json = RunFjord({"check", "--json", gone, good});
   EXPECT_EQ(json.code, 1);
   EXPECT_THAT(json.out, HasSubstr("there is no such file"));

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "engine/geometry/primitives.h"
+#include "engine/render/build.h"
+#include "engine/render/tiles.h"
 #include "tests/render/scenes.h"
 
 namespace fjord {
@@ -175,7 +177,11 @@ TEST(ShadowTest, D4_OnePictureForEveryTileThreadAndPatch) {
 // triangles do not hold them, and its shadows are the picture's.
 TEST(ShadowTest, TilesOfOneRendererShareTheMaps) {
   const v1::FrameScene scene = Mixed();
-  const Picture whole = Draw(scene);
+  const Result<BuiltFrame> built = BuildFrame(scene);
+  ASSERT_TRUE(built.ok());
+  const Result<RenderedFrame> drawn = RenderRegion(*built, {0, 0, 150, 101}, {.threads = 1});
+  ASSERT_TRUE(drawn.ok());
+  const Picture& whole = drawn->picture;  // with maps of its own
   const auto renderer = FrameRenderer::Make(scene, {.threads = 2});
   ASSERT_TRUE(renderer.ok());
   for (const uint32_t x : {0u, 50u, 100u}) {
