@@ -21,13 +21,25 @@ std::string Cut(const std::string& line, int width) {
   return FirstCharacters(line, static_cast<size_t>(std::max(0, width)));
 }
 
+FrameSet FramesOf(const v1::Job& job) {
+  std::vector<FrameSpan> spans;
+  for (const v1::FrameSpan& span : job.span()) {
+    spans.push_back({span.first(), span.last(), std::max(span.step(), 1u)});
+  }
+  std::optional<FrameSet> frames = FrameSet::FromSpans(spans);
+  if (frames && !frames->empty()) return *std::move(frames);
+  if (job.first_frame() < 1 || job.last_frame() < job.first_frame()) return {};
+  return {job.first_frame(), job.last_frame()};
+}
+
 }  // namespace
 
 void FarmView::Put(const v1::Frame& frame) {
-  if (frame.number() < job_.first_frame() || frame.number() > job_.last_frame()) return;
-  const size_t count = job_.last_frame() - job_.first_frame() + size_t{1};
-  if (cells_.size() != count) cells_.assign(count, Cell::kWaiting);
-  Cell& cell = cells_[frame.number() - job_.first_frame()];
+  if (frames_.empty()) frames_ = FramesOf(job_);
+  const std::optional<uint32_t> index = frames_.IndexOf(frame.number());
+  if (!index) return;
+  if (cells_.size() != frames_.size()) cells_.assign(frames_.size(), Cell::kWaiting);
+  Cell& cell = cells_[*index];
   switch (frame.state()) {
     case v1::FRAME_RUNNING:
       cell = Cell::kRunning;

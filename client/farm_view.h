@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/frame_set.h"
 #include "fjord/v1/jobs.pb.h"
 
 namespace fjord {
@@ -38,7 +39,8 @@ class FarmView {
 
   v1::Job job_;
   uint32_t workers_alive_ = 0;
-  std::vector<Cell> cells_;  // by frame, from the job's first
+  FrameSet frames_;          // of the job, once it is known
+  std::vector<Cell> cells_;  // a frame each
   std::vector<v1::WorkerInfo> workers_;
   bool begun_ = false;
   uint32_t rendered_at_start_ = 0;  // done, not cached, when the watch began

@@ -60,6 +60,17 @@ bool HasEnded(v1::JobState state) {
 
 int ExitCodeOfJob(v1::JobState state) { return state == v1::DONE ? kExitDone : kExitFailed; }
 
+std::string FramesText(const v1::Job& job) {
+  std::string text;
+  for (const v1::FrameSpan& span : job.span()) {
+    text += (text.empty() ? "" : ",") + std::to_string(span.first());
+    if (span.last() > span.first()) text += "-" + std::to_string(span.last());
+    if (span.step() > 1) text += "x" + std::to_string(span.step());
+  }
+  if (!text.empty() || job.last_frame() == 0) return text;
+  return std::to_string(job.first_frame()) + "-" + std::to_string(job.last_frame());
+}
+
 nlohmann::ordered_json JobJson(const v1::Job& job) {
   const v1::FrameCounts& frames = job.frames();
   return {{"id", job.id()},
@@ -82,7 +93,10 @@ nlohmann::ordered_json JobJson(const v1::Job& job) {
           {"render_ms", job.render_ms()},
           {"eta_ms", job.eta_ms()},
           {"error", job.error()},
-          {"trouble", job.trouble()}};
+          {"trouble", job.trouble()},
+          {"frame_list", FramesText(job)},
+          {"after", job.after_job()},
+          {"frame_limit", job.frame_limit_ms() / 1000.}};
 }
 
 nlohmann::ordered_json WorkerJson(const v1::WorkerInfo& worker, const std::string& trouble) {

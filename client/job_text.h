@@ -16,6 +16,8 @@ bool HasEnded(v1::JobState state);
 // Exit code of waiting for it: 0 for done.
 int ExitCodeOfJob(v1::JobState state);
 
+std::string FramesText(const v1::Job& job);  // "1-10,12,20-40x2"
+
 // The documented form of `status --json`.
 nlohmann::ordered_json JobJson(const v1::Job& job);
 // trouble: of the whole farm.

@@ -120,7 +120,7 @@ class LocalFarm {
     const Result<pid_t> child = StartChild(
         {FindProgram("fjord-worker", "worker"), "--server", address_, "--threads",
          std::to_string(threads), "--id", std::string(host) + "-" + std::to_string(number),
-         "--cache", options_.data + "/" + name},
+         "--stay", "--cache", options_.data + "/" + name},
         {});
     if (!child.ok()) return child.error();
     worker_number_[*child] = number;

@@ -120,7 +120,7 @@ Result<RenderedFrame> RenderInTime(const v1::FrameScene& frame, uint32_t number,
   if (rendered.ok() || !watch.time_is_over()) return rendered;
   return MakeError(ErrorCode::kLimit, "frame " + std::to_string(number) + " took longer than its " +
                                           SecondsText(job.frame_seconds) +
-                                          " (--frame-time-limit); give it more time, or make less "
+                                          " (--frame-limit); give it more time, or make less "
                                           "of it, as with a larger epsilon or pixels");
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <future>
 
+#include "engine/base/printable.h"
+
 namespace fjord::server {
 namespace {
 
@@ -152,7 +154,8 @@ void Coordinator::Apply() {
     for (Watcher* watcher : watchers) watcher->Changed(machine_, frames);
   }
   for (const Notice& notice : effects.notices) {
-    spdlog::log(notice.alarm ? spdlog::level::err : spdlog::level::warn, "{}", notice.text);
+    spdlog::log(notice.alarm ? spdlog::level::err : spdlog::level::warn, "{}",
+                Printable(notice.text));
   }
 }
 

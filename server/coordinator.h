@@ -28,7 +28,7 @@ namespace fjord::server {
 class Watcher {
  public:
   virtual ~Watcher() = default;
-  // frames: indexes that changed. The job is still there.
+  // frames: indexes that changed. The job may have been deleted.
   virtual void Changed(const Machine& machine, const std::set<uint32_t>& frames) = 0;
   // The coordinator stops: end the stream.
   virtual void Closed() = 0;

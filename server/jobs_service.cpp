@@ -110,12 +110,11 @@ grpc::ServerUnaryReactor* JobsService::ListFrames(grpc::CallbackServerContext* c
                                                                              Now) -> Objection {
         const Job* job = machine.FindJob(*ParseJobId(id));
         if (job == nullptr) return NoJob(id);
-        const uint32_t first = job->row.spec.first;
-        uint32_t index = from > first ? from - first : 0;
+        uint32_t index = job->row.spec.frames.IndexFrom(from);
         size_t bytes = 0;
         for (; index < job->frames.size(); ++index) {
           if (response->frame_size() == static_cast<int>(size) || bytes > kPageBytes) {
-            response->set_next_frame(first + index);
+            response->set_next_frame(job->FrameNumber(index));
             break;
           }
           *response->add_frame() = ViewFrame(machine, *job, index);
@@ -142,8 +141,13 @@ grpc::ServerUnaryReactor* JobsService::Command(grpc::CallbackServerContext* cont
       [id = *ParseJobId(request->job_id()), kind = static_cast<JobCommand>(request->kind()),
        priority = request->priority(), response](Machine& machine, Now now) {
         Objection refusal;
+        if (const Job* job = machine.FindJob(id); kind == JobCommand::kDelete && job != nullptr) {
+          *response = ViewJob(machine, *job);  // as it was
+        }
         const auto answer = machine.Command(id, kind, priority, now);
-        if (ValueOf(answer, refusal)) *response = ViewJob(machine, *machine.FindJob(id));
+        if (ValueOf(answer, refusal) && kind != JobCommand::kDelete) {
+          *response = ViewJob(machine, *machine.FindJob(id));
+        }
         return refusal;
       });
   return reactor;

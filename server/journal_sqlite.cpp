@@ -27,7 +27,8 @@ constexpr const char* kSchema[] = {
     " name TEXT NOT NULL, project TEXT NOT NULL, scene TEXT NOT NULL, first BIGINT NOT NULL,"
     " last BIGINT NOT NULL, priority BIGINT NOT NULL, verify_share REAL NOT NULL,"
     " after_job BIGINT NOT NULL, paused BIGINT NOT NULL, cancelled BIGINT NOT NULL,"
-    " submitted_unix_ms BIGINT NOT NULL, ended_unix_ms BIGINT NOT NULL, error TEXT NOT NULL)",
+    " submitted_unix_ms BIGINT NOT NULL, ended_unix_ms BIGINT NOT NULL, error TEXT NOT NULL,"
+    " frames TEXT NOT NULL DEFAULT '', frame_limit_ms BIGINT NOT NULL DEFAULT 0)",
     "CREATE TABLE frame (job BIGINT NOT NULL, number BIGINT NOT NULL, key TEXT NOT NULL,"
     " cached BIGINT NOT NULL, error TEXT NOT NULL, PRIMARY KEY (job, number)) WITHOUT ROWID",
     "CREATE TABLE result (key TEXT NOT NULL, epoch BIGINT NOT NULL, sequence BIGINT NOT NULL,"
@@ -42,6 +43,8 @@ constexpr const char* kSchema[] = {
 
 // What version 1 did not have.
 constexpr const char* kFromVersion1[] = {
+    "ALTER TABLE job ADD COLUMN frames TEXT NOT NULL DEFAULT ''",
+    "ALTER TABLE job ADD COLUMN frame_limit_ms BIGINT NOT NULL DEFAULT 0",
     "ALTER TABLE result ADD COLUMN bytes BIGINT NOT NULL DEFAULT 0",
 };
 
@@ -91,6 +94,7 @@ class SqliteJournal : public Journal {
   void Write(const DropResult& row);
   void Write(const KeyRow& row);
   void Write(const WorkerRow& row);
+  void Write(const DropJob& row);
   template <typename... Values>
   void Run(Statement& statement, const Values&... values) {
     bytes_ += (Bytes(values) + ...);
@@ -116,7 +120,7 @@ class SqliteJournal : public Journal {
 
   Statement put_job_{sql_,
                      "INSERT OR REPLACE INTO job VALUES (:a, :b, :c, :d, :e, :f, :g, :h, :i, :j,"
-                     " :k, :l, :m, :n, :o, :p)"};
+                     " :k, :l, :m, :n, :o, :p, :q, :r)"};
   Statement put_frame_{sql_, "INSERT OR REPLACE INTO frame VALUES (:a, :b, :c, :d, :e)"};
   Statement put_result_{
       sql_, "INSERT OR REPLACE INTO result VALUES (:a, :b, :c, :d, :e, :f, :g, :h, :i)"};
@@ -124,6 +128,13 @@ class SqliteJournal : public Journal {
                          "DELETE FROM result WHERE key = :a AND epoch = :b AND sequence = :c AND "
                          "worker = :d AND pixel = :e"};
   Statement put_key_{sql_, "INSERT OR REPLACE INTO key VALUES (:a, :b, :c, :d, :e)"};
+  Statement drop_frames_{sql_, "DELETE FROM frame WHERE job = :a"};
+  Statement drop_job_{sql_, "DELETE FROM job WHERE id = :a"};
+  // As a text of digits; the id that was given last is never given again.
+  Statement note_last_job_{
+      sql_,
+      "INSERT INTO meta VALUES ('last_job', :a) ON CONFLICT (name) DO UPDATE "
+      "SET value = max(CAST(value AS INTEGER), CAST(excluded.value AS INTEGER))"};
   Statement put_worker_{sql_, "INSERT OR REPLACE INTO worker VALUES (:a, :b, :c)"};
 };
 
@@ -138,9 +149,10 @@ long long Number(auto value) { return static_cast<long long>(value); }
 void SqliteJournal::Write(const JobRow& row) {
   const JobSpec& spec = row.spec;
   Run(put_job_, Number(row.id), spec.request_id, spec.content, spec.name, spec.project,
-      spec.scene.Hex(), Number(spec.first), Number(spec.last), Number(spec.priority),
-      spec.verify_share, Number(spec.after), Number(row.paused), Number(row.cancelled),
-      Number(row.submitted_unix_ms), Number(row.ended_unix_ms), row.error);
+      spec.scene.Hex(), Number(spec.frames.first()), Number(spec.frames.last()),
+      Number(spec.priority), spec.verify_share, Number(spec.after), Number(row.paused),
+      Number(row.cancelled), Number(row.submitted_unix_ms), Number(row.ended_unix_ms), row.error,
+      spec.frames.ToString(), Number(spec.frame_limit_ms));
 }
 
 void SqliteJournal::Write(const FrameRow& row) {
@@ -166,6 +178,12 @@ void SqliteJournal::Write(const KeyRow& row) {
 
 void SqliteJournal::Write(const WorkerRow& row) {
   Run(put_worker_, row.id, Number(row.draining), Number(row.quarantined));
+}
+
+void SqliteJournal::Write(const DropJob& row) {
+  Run(drop_frames_, Number(row.id));
+  Run(drop_job_, Number(row.id));
+  Run(note_last_job_, Number(row.id));
 }
 
 void SqliteJournal::Migrate() {
@@ -277,6 +295,15 @@ class Row {
     }
   }
   double Real(size_t i) const { return row_.get<double>(i); }
+  // A text, or, where that is empty, as version 1 left it, a first and a last number.
+  FrameSet Frames(size_t text, size_t first, size_t last) const {
+    const std::string spans = Text(text).empty()
+                                  ? std::to_string(Int(first)) + "-" + std::to_string(Int(last))
+                                  : Text(text);
+    const Result<FrameSet> frames = FrameSet::Parse(spans);
+    if (!frames.ok()) throw std::runtime_error("damaged frames: " + frames.error().message);
+    return frames.value();
+  }
   Digest Hash(size_t i) const {
     const std::optional<Digest> digest = ParseDigest(Text(i));
     if (!digest) throw std::runtime_error("a damaged digest: \"" + Text(i) + "\"");
@@ -295,17 +322,19 @@ Result<Snapshot> SqliteJournal::Load() {
     for (const soci::row& row : rows) take(Row(row));
   };
   try {
+    each("SELECT value FROM meta WHERE name = 'last_job'",
+         [&](const Row& row) { snapshot.last_job = std::stoull(row.Text(0)); });
     each("SELECT * FROM job ORDER BY id", [&](const Row& row) {
       JobSpec spec{row.Text(1),
                    row.Text(2),
                    row.Text(3),
                    row.Text(4),
                    row.Hash(5),
-                   static_cast<uint32_t>(row.Int(6)),
-                   static_cast<uint32_t>(row.Int(7)),
+                   row.Frames(16, 6, 7),
                    static_cast<int32_t>(row.Int(8)),
                    row.Real(9),
-                   static_cast<JobId>(row.Int(10))};
+                   static_cast<JobId>(row.Int(10)),
+                   static_cast<uint32_t>(row.Int(17))};
       snapshot.jobs.push_back({static_cast<JobId>(row.Int(0)), std::move(spec), row.Int(11) != 0,
                                row.Int(12) != 0, row.Int(13), row.Int(14), row.Text(15)});
     });

@@ -52,6 +52,9 @@ class AcquireCall : public grpc::ServerUnaryReactor {
       unit.set_frame_key(grant.key.Hex());
       out.set_term_ms(static_cast<uint32_t>(term_ms));
       out.set_alone(grant.alone);
+      out.set_limit_ms(grant.limit_ms);
+      out.set_job_id(std::to_string(grant.job));
+      out.set_job_name(grant.job_name);
     }
     response_->set_drain(answer.drain);
     Finish(grpc::Status::OK);

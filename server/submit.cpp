@@ -31,6 +31,30 @@ std::string ContentOf(v1::SubmitRequest request) {
   return Sha256Of(request.SerializeAsString()).Hex();
 }
 
+// Which of the scene's frames are asked for.
+std::optional<Refusal> ReadFrames(const v1::SubmitRequest& request, uint32_t frames,
+                                  FrameSet* chosen) {
+  if (request.span().empty()) {
+    const uint32_t first = request.first_frame() == 0 ? 1 : request.first_frame();
+    const uint32_t last = request.last_frame() == 0 ? frames : request.last_frame();
+    if (last > frames || first > last) {
+      return Refusal{Code::kInvalid, (first > frames ? "first_frame: " : "last_frame: ") +
+                                         std::to_string(first > frames ? first : last) +
+                                         " is outside the animation, which has frames 1-" +
+                                         std::to_string(frames)};
+    }
+    *chosen = FrameSet(first, last);
+    return std::nullopt;
+  }
+  *chosen = *FramesOf(request.span());
+  if (chosen->last() > frames) {
+    return Refusal{Code::kInvalid, "span: " + std::to_string(chosen->last()) +
+                                       " is outside the animation, which has frames 1-" +
+                                       std::to_string(frames)};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Answer<JobSpec> ReadSubmission(const v1::SubmitRequest& request, BlobStore& blobs) {
@@ -63,17 +87,18 @@ Answer<JobSpec> ReadSubmission(const v1::SubmitRequest& request, BlobStore& blob
                    "scene: output.frames is " + std::to_string(frames) + ", outside 1..1000000"};
   }
   JobSpec spec;
-  spec.first = request.first_frame() == 0 ? 1 : request.first_frame();
-  spec.last = request.last_frame() == 0 ? frames : request.last_frame();
-  if (spec.last > frames || spec.first > spec.last) {
-    return Refusal{Code::kInvalid,
-                   (spec.first > frames ? "first_frame: " : "last_frame: ") +
-                       std::to_string(spec.first > frames ? spec.first : spec.last) +
-                       " is outside the animation, which has frames 1-" + std::to_string(frames)};
+  if (std::optional<Refusal> refusal = ReadFrames(request, frames, &spec.frames)) {
+    return *std::move(refusal);
   }
   spec.request_id = request.request_id();
   spec.content = ContentOf(request);
   spec.name = request.name().empty() ? scene.name() : request.name();
+  if (spec.name.size() > kMaxNameBytes) {
+    return Refusal{Code::kInvalid, "name: the scene's has " + std::to_string(spec.name.size()) +
+                                       " bytes; at most " + std::to_string(kMaxNameBytes)};
+  }
+  spec.frame_limit_ms =
+      request.has_frame_limit_ms() ? request.frame_limit_ms() : kDefaultFrameLimitMs;
   spec.project = request.project();
   spec.scene = digest;
   spec.priority = request.priority();

@@ -1,6 +1,8 @@
 #include "server/validate.h"
 
+#include <algorithm>
 #include <set>
+#include <vector>
 
 #include "proto/fjord/protocol.h"
 
@@ -84,6 +86,14 @@ std::optional<JobId> ParseJobId(const std::string& text) {
   return id;
 }
 
+std::optional<FrameSet> FramesOf(const google::protobuf::RepeatedPtrField<v1::FrameSpan>& spans) {
+  std::vector<FrameSpan> plain;
+  for (const v1::FrameSpan& span : spans) {
+    plain.push_back({span.first(), span.last(), std::max(span.step(), 1u)});
+  }
+  return FrameSet::FromSpans(plain);
+}
+
 Objection Validate(const v1::SubmitRequest& request) {
   Check check;
   check.Protocol(request.protocol())
@@ -95,6 +105,13 @@ Objection Validate(const v1::SubmitRequest& request) {
       .Range("last_frame", request.last_frame(), 0, kMaxFrame)
       .Holds(request.last_frame() == 0 || request.first_frame() <= request.last_frame(),
              "last_frame", "is before first_frame")
+      .Range("span", request.span_size(), 0, static_cast<double>(FrameSet::kMostSpans))
+      .Holds(request.span().empty() || (request.first_frame() == 0 && request.last_frame() == 0),
+             "span", "stands instead of first_frame and last_frame")
+      .Holds(request.span_size() > static_cast<int>(FrameSet::kMostSpans) ||
+                 FramesOf(request.span()).has_value(),
+             "span", "these are not the spans of a set of frames")
+      .Range("frame_limit_ms", request.frame_limit_ms(), 0, kMaxFrameLimitMs)
       .Range("priority", request.priority(), -1000, 1000)
       .Range("verify_share", request.verify_share(), 0, 1);
   if (!request.after_job().empty()) check.Job("after_job", request.after_job());
@@ -127,7 +144,7 @@ Objection Validate(const v1::WatchRequest& request) {
 Objection Validate(const v1::CommandRequest& request) {
   return Check()
       .Job("job_id", request.job_id())
-      .Range("kind", request.kind(), v1::CommandRequest::CANCEL, v1::CommandRequest::PRIORITY)
+      .Range("kind", request.kind(), v1::CommandRequest::CANCEL, v1::CommandRequest::DELETE)
       .Range("priority", request.priority(), -1000, 1000)
       .Result();
 }

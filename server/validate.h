@@ -21,6 +21,8 @@ inline constexpr int kMaxHoldings = 64;
 inline constexpr int kMaxTags = 32;
 inline constexpr int kMaxEnded = 16;  // earlier sessions of a worker
 inline constexpr uint32_t kMaxFrame = 1'000'000;
+inline constexpr uint32_t kMaxFrameLimitMs = 604'800'000;    // a week
+inline constexpr uint32_t kDefaultFrameLimitMs = 3'600'000;  // where a client names none
 
 // What people may be shown: UTF-8 without control characters is the messages' own promise; here
 // length and emptiness are checked.
@@ -42,6 +44,9 @@ Objection Validate(const v1::MissingRequest& request);
 // first: the message that names the blob.
 Objection Validate(const v1::PutBlobRequest& request, bool first);
 Objection Validate(const v1::GetBlobRequest& request);
+
+// The set that the spans of a message mean; none: they mean no set (frame_set.h).
+std::optional<FrameSet> FramesOf(const google::protobuf::RepeatedPtrField<v1::FrameSpan>& spans);
 
 // "7" -> 7; none: not a job's id.
 std::optional<JobId> ParseJobId(const std::string& text);

@@ -60,8 +60,16 @@ v1::Job ViewJob(const Machine& machine, const Job& job) {
   counts.set_cached(job.counts.cached);
   counts.set_failed(job.counts.failed);
   view.set_scene_digest(job.row.spec.scene.Hex());
-  view.set_first_frame(job.row.spec.first);
-  view.set_last_frame(job.row.spec.last);
+  view.set_first_frame(job.row.spec.frames.first());
+  view.set_last_frame(job.row.spec.frames.last());
+  for (const FrameSpan& span : job.row.spec.frames.spans()) {
+    v1::FrameSpan& out = *view.add_span();
+    out.set_first(span.first);
+    out.set_last(span.last);
+    out.set_step(span.step);
+  }
+  if (job.row.spec.after != 0) view.set_after_job(std::to_string(job.row.spec.after));
+  view.set_frame_limit_ms(job.row.spec.frame_limit_ms);
   view.set_submitted_unix_ms(job.row.submitted_unix_ms);
   view.set_ended_unix_ms(job.row.ended_unix_ms);
   view.set_render_ms(job.render_ms);
@@ -72,12 +80,6 @@ v1::Job ViewJob(const Machine& machine, const Job& job) {
   } else if (!job.failed.empty()) {
     const uint32_t index = *job.failed.begin();
     view.set_error("frame " + std::to_string(job.FrameNumber(index)) + ": " + ErrorOf(job, index));
-  } else if (!job.ended() && job.row.spec.after != 0) {
-    const Job* before = machine.FindJob(job.row.spec.after);
-    if (before->ended() && before->state() != JobState::kDone) {
-      view.set_error("waits for job " + std::to_string(job.row.spec.after) +
-                     ", which did not succeed");
-    }
   }
   return view;
 }

@@ -7,6 +7,10 @@
 namespace fjord::server {
 namespace {
 
+grpc::Status NoSuchJob(JobId id) {
+  return {grpc::StatusCode::NOT_FOUND, "job_id: there is no job " + std::to_string(id)};
+}
+
 constexpr int kMostChanged = 1'000;  // frames in one message
 
 }  // namespace
@@ -25,7 +29,7 @@ void WatchCall::Begin(const Machine& machine) {
   if (ended_) return;
   const Job* job = machine.FindJob(job_);
   if (job == nullptr) {
-    return End({grpc::StatusCode::NOT_FOUND, "job_id: there is no job " + std::to_string(job_)});
+    return End(NoSuchJob(job_));
   }
   if (!coordinator_.Watch(job_, this)) return End(BusyStatus());
   for (uint32_t index = 0; index < job->frames.size(); ++index) {
@@ -43,6 +47,7 @@ void WatchCall::Changed(const Machine& machine, const std::set<uint32_t>& frames
 
 void WatchCall::SendIfDue(const Machine& machine) {
   if (writing_ || ended_ || !dirty_) return;
+  if (machine.FindJob(job_) == nullptr) return End(NoSuchJob(job_));
   const Job& job = *machine.FindJob(job_);
   message_.Clear();
   *message_.mutable_job() = ViewJob(machine, job);

@@ -30,6 +30,12 @@ std::shared_ptr<Lease> HeldLeases::Next() {
   return lease;
 }
 
+void HeldLeases::Begin(const std::shared_ptr<Lease>& lease, Time now) {
+  const std::lock_guard lock(mutex_);
+  const uint32_t limit_ms = lease->grant.limit_ms();
+  if (limit_ms > 0) lease->stop_at = now + std::chrono::milliseconds(limit_ms);
+}
+
 bool HeldLeases::WaitForRoom(size_t most) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] {
@@ -97,6 +103,14 @@ std::optional<Time> HeldLeases::CancelOverdue(Time now) {
     std::vector<std::shared_ptr<Lease>> overdue;
     for (const auto& [key, lease] : leases_) {
       if (lease->made) continue;
+      if (lease->stop_at && !lease->over) {
+        if (*lease->stop_at <= now) {
+          lease->over = true;
+          lease->cancel = true;
+        } else if (!next || *lease->stop_at < *next) {
+          next = *lease->stop_at;
+        }
+      }
       const Time stop = lease->deadline - margin_;
       if (stop <= now) {
         overdue.push_back(lease);

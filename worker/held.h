@@ -37,7 +37,9 @@ struct Lease {
   std::atomic<bool> cancel{false};    // lost: nobody waits for it
   // guarded by HeldLeases
   Time deadline;
-  bool made = false;  // rendered (or failed) and on its way
+  bool made = false;              // rendered (or failed) and on its way
+  std::optional<Time> stop_at;    // its time limit, once it is being rendered
+  std::atomic<bool> over{false};  // cancelled because its time was over: it has failed
 };
 
 class HeldLeases {
@@ -48,6 +50,8 @@ class HeldLeases {
   void Add(const v1::AcquireResponse& response, Time sent);
   // The next to render; waits. Null: stopped.
   std::shared_ptr<Lease> Next();
+  // Rendering begins: the time limit counts from now.
+  void Begin(const std::shared_ptr<Lease>& lease, Time now);
   // Waits until fewer than `most` wait to be rendered and none runs alone. False: stopped.
   bool WaitForRoom(size_t most);
   void MarkMade(const std::shared_ptr<Lease>& lease);
@@ -59,7 +63,7 @@ class HeldLeases {
   void Extend(const v1::Attempt& attempt, Time sent, std::chrono::milliseconds term);
   // The coordinator has given it up.
   void Lose(const v1::Attempt& attempt);
-  // Cancels what is overdue; returns when the next one will be.
+  // Cancels what is overdue, by its deadline or its time limit; returns when the next one will be.
   std::optional<Time> CancelOverdue(Time now);
 
   void Stop();

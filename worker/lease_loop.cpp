@@ -15,12 +15,13 @@ constexpr milliseconds kLongestWait{20'000};
 
 }  // namespace
 
-LeaseLoop::LeaseLoop(Session& session, HeldLeases& held, Renewal& renewal)
-    : session_(session), held_(held), renewal_(renewal), thread_([this] { Run(); }) {}
+LeaseLoop::LeaseLoop(Session& session, HeldLeases& held, Renewal& renewal, bool stay)
+    : session_(session), held_(held), renewal_(renewal), stay_(stay), thread_([this] { Run(); }) {}
 
 void LeaseLoop::Run() {
   if (!session_.Join()) return;
   uint64_t number = 0;
+  bool drained = false;
   while (held_.WaitForRoom(kAhead)) {
     v1::AcquireResponse response;
     Time sent;
@@ -29,10 +30,17 @@ void LeaseLoop::Run() {
       held_.Add(response, sent);
       renewal_.Added(sent);
     }
-    if (response.drain()) {
+    if (response.drain() && !stay_) {
       Drain();
       return;
     }
+    if (response.drain() != drained) {
+      drained = response.drain();
+      spdlog::info(drained ? "drained: this worker gets nothing more until it is released"
+                           : "released: this worker gets work again");
+    }
+    // Nobody parks a drained worker's call.
+    if (drained && !session_.Pause(session_.renew_every())) return;
   }
 }
 

@@ -14,7 +14,8 @@ namespace fjord::worker {
 class LeaseLoop {
  public:
   // All of them outlive the loop. Begins by joining.
-  LeaseLoop(Session& session, HeldLeases& held, Renewal& renewal);
+  // stay: once drained, wait to be released instead of ending.
+  LeaseLoop(Session& session, HeldLeases& held, Renewal& renewal, bool stay);
 
  private:
   void Run();
@@ -24,6 +25,7 @@ class LeaseLoop {
   Session& session_;
   HeldLeases& held_;
   Renewal& renewal_;
+  const bool stay_;
   std::jthread thread_;  // last: it uses the others
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/base/fpenv.h"
+#include "engine/base/printable.h"
 #include "proto/fjord/address.h"
 #include "proto/fjord/protocol.h"
 #include "worker/identity.h"
@@ -45,6 +46,7 @@ int main(int argc, char** argv) {
   app.add_option("--tag", config.tags, "A word that says what this worker is; may be repeated");
   app.add_option("--id", config.id, "Name of this worker, the same after a restart");
   app.add_option("--cache", config.cache_dir, "Folder to keep scenes and assets in");
+  app.add_flag("--stay", config.stay, "When drained, wait to be released instead of ending");
   app.add_option("--log", level, "debug, info, warn or err")->capture_default_str();
   app.add_option("--render-unit", unit,
                  "SCENE FRAME KEY: the child's side of a unit that runs alone")
@@ -97,7 +99,7 @@ int main(int argc, char** argv) {
     if (!ended) continue;
     if (worker->Stop() && note != nullptr) note->Forget();
     if (ended->ok()) return kDone;
-    std::fprintf(stderr, "fjord-worker: %s\n", ended->error().ToString().c_str());
+    std::fprintf(stderr, "fjord-worker: %s\n", fjord::Printable(ended->error().ToString()).c_str());
     return kFailed;
   }
 }

@@ -25,6 +25,14 @@ void Renewal::Added(Time sent) {
   wake_.notify_all();
 }
 
+void Renewal::Look() {
+  {
+    const std::lock_guard lock(mutex_);
+    look_now_ = true;
+  }
+  wake_.notify_all();
+}
+
 void Renewal::RenewLoop() {
   while (!session_.stopping()) {
     std::unique_lock lock(mutex_);

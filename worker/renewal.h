@@ -19,6 +19,8 @@ class Renewal {
 
   // Leases were added to `held`, granted to a call that was sent at `sent`. Thread-safe.
   void Added(Time sent);
+  // The deadlines have changed otherwise. Thread-safe.
+  void Look();
 
  private:
   void RenewLoop();

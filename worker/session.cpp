@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/printable.h"
 #include "proto/fjord/protocol.h"
 #include "worker/identity.h"
 
@@ -81,7 +82,7 @@ std::optional<Session::Sent> Session::Judge(Rpc rpc, const grpc::Status& status,
     return act == Act::kDone ? Sent::kAnswered : Sent::kDropped;
   }
   if (act == Act::kDrop) {
-    spdlog::warn("given up: {}", status.error_message());
+    spdlog::warn("given up: {}", Printable(status.error_message()));
     return Sent::kDropped;
   }
   if (act == Act::kStop) {
@@ -93,11 +94,13 @@ std::optional<Session::Sent> Session::Judge(Rpc rpc, const grpc::Status& status,
     return Sent::kStopped;
   }
   if (rpc == Rpc::kJoin && status.error_code() == grpc::StatusCode::ABORTED) {
-    if (!std::exchange(trouble->waits, true)) spdlog::info("waiting: {}", status.error_message());
+    if (!std::exchange(trouble->waits, true))
+      spdlog::info("waiting: {}", Printable(status.error_message()));
   } else if (!stopping() && !std::exchange(trouble->said, true)) {
     const bool silent = status.error_code() != grpc::StatusCode::RESOURCE_EXHAUSTED;
     spdlog::warn("the coordinator at {} {} ({}); trying again", config_.server,
-                 silent ? "does not answer" : "can not take more now", status.error_message());
+                 silent ? "does not answer" : "can not take more now",
+                 Printable(status.error_message()));
   }
   if (Pause(trouble->backoff.Next())) return std::nullopt;
   return Sent::kStopped;
@@ -185,7 +188,7 @@ bool Session::JoinUnlessJoinedSince(uint64_t seen_joins) {
   const size_t kept = KeepAdopted(request, response, sent);
   ++joins_;
   spdlog::info("joined {} as {} (epoch {}, {} of {} leases kept)", config_.server,
-               config_.worker_id, response.epoch(), kept, request.holding_size());
+               Printable(config_.worker_id), response.epoch(), kept, request.holding_size());
   return true;
 }
 

@@ -2,12 +2,15 @@
 
 #include <spdlog/spdlog.h>
 
+#include <chrono>
+#include <cstdio>
 #include <functional>
 #include <mutex>
 #include <stop_token>
 #include <thread>
 #include <utility>
 
+#include "engine/base/printable.h"
 #include "worker/delivery.h"
 #include "worker/held.h"
 #include "worker/lease_loop.h"
@@ -50,6 +53,22 @@ WorkerConfig Complete(WorkerConfig config) {
   return config;
 }
 
+// "frame 7 of job 3 (island)".
+std::string NameOf(const v1::Grant& grant) {
+  std::string name = "frame " + std::to_string(grant.unit(0).frame());
+  if (!grant.job_id().empty()) name += " of job " + Printable(grant.job_id());
+  if (!grant.job_name().empty()) name += " (" + Printable(grant.job_name()) + ")";
+  return name;
+}
+
+Error OverLimit(uint32_t limit_ms) {
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, "%g", limit_ms / 1000.);
+  return MakeError(ErrorCode::kLimit, std::string("took longer than its ") + seconds +
+                                          " s (--frame-limit); give it more time, or make less of "
+                                          "it, as with a larger epsilon or pixels");
+}
+
 // Owns the connections, the renderers, the leases and the loops, and renders.
 class WorkerImpl : public Worker {
  public:
@@ -67,8 +86,8 @@ class WorkerImpl : public Worker {
     explicit Loops(WorkerImpl& worker)
         : renewal(worker.session_, worker.held_),
           delivery(worker.session_, worker.held_, *worker.blobs_),
-          leases(worker.session_, worker.held_, renewal),
-          rendering([this, &worker] { worker.RenderLoop(delivery); }) {}
+          leases(worker.session_, worker.held_, renewal, worker.config_.stay),
+          rendering([this, &worker] { worker.RenderLoop(renewal, delivery); }) {}
 
     Renewal renewal;
     Delivery delivery;
@@ -76,7 +95,7 @@ class WorkerImpl : public Worker {
     std::jthread rendering;
   };
 
-  void RenderLoop(Delivery& delivery);
+  void RenderLoop(Renewal& renewal, Delivery& delivery);
   Result<RenderedUnit> Render(Lease& lease);
 
   const WorkerConfig config_;
@@ -123,19 +142,22 @@ bool WorkerImpl::Stop() {
   return left_ = leases_->Leave(request).status.ok();
 }
 
-void WorkerImpl::RenderLoop(Delivery& delivery) {
+void WorkerImpl::RenderLoop(Renewal& renewal, Delivery& delivery) {
   while (const std::shared_ptr<Lease> lease = held_.Next()) {
+    held_.Begin(lease, std::chrono::steady_clock::now());
+    renewal.Look();
     Result<RenderedUnit> rendered = Render(*lease);
-    const uint32_t frame = lease->grant.unit(0).frame();
-    if (lease->cancel) {
-      spdlog::info("frame {} was given up: its lease is lost", frame);
+    const std::string frame = NameOf(lease->grant);
+    if (lease->over && !rendered.ok()) rendered = OverLimit(lease->grant.limit_ms());
+    if (lease->cancel && !lease->over) {
+      spdlog::info("{} was given up: its lease is lost", frame);
       held_.Remove(lease);
       continue;
     }
     if (rendered.ok()) {
-      spdlog::info("frame {} rendered in {} ms", frame, rendered->render_ms);
+      spdlog::info("{} rendered in {} ms", frame, rendered->render_ms);
     } else {
-      spdlog::warn("frame {}: {}", frame, rendered.error().ToString());
+      spdlog::warn("{}: {}", frame, Printable(rendered.error().ToString()));
     }
     held_.MarkMade(lease);
     if (!delivery.Hand({lease, std::move(rendered)})) return;

@@ -29,6 +29,7 @@ struct WorkerConfig {
   uint64_t cache_bytes = uint64_t{1} << 30;
   std::string session;             // this process's; empty: a random one
   std::vector<std::string> ended;  // sessions of earlier processes, known to be over
+  bool stay = false;               // drained: wait to be released instead of ending
   std::string program;             // for suspects' child processes; empty: rendered in this one
 
   // For tests; null: gRPC and the engine.

@@ -20,6 +20,8 @@ Result<FrameSet> ParseFrames(const std::string& text);
 // Adds --frames.
 void AddFrames(CLI::App* command, std::string* frames);
 
+inline constexpr double kMostFrameSeconds = 604'800;  // --frame-limit: a week
+
 // "960x540", or "50%" of the scene's. kUsage otherwise.
 struct PictureSize {
   uint32_t width = 0;

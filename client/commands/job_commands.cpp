@@ -81,8 +81,10 @@ void AddJobCommands(CLI::App& app, Run* run) {
          v1::CommandRequest::PAUSE, "  fjord pause JOB");
   AddOne(app, run, "resume", "Go on with a paused job", v1::CommandRequest::RESUME,
          "  fjord resume JOB");
-  AddOne(app, run, "retry", "Try the failed frames of a job again", v1::CommandRequest::RETRY,
-         "  fjord retry JOB");
+  AddOne(app, run, "retry", "Try the failed frames of a job again, or go on with a cancelled job",
+         v1::CommandRequest::RETRY, "  fjord retry JOB");
+  AddOne(app, run, "delete", "Forget jobs that have ended; their pictures stay for later jobs",
+         v1::CommandRequest::DELETE, "  fjord delete JOB\n  fjord delete 3 4 5");
   AddOne(app, run, "priority", "Change the priority of a job", v1::CommandRequest::PRIORITY,
          "  fjord priority JOB 10\n  fjord priority JOB -10");
 }

@@ -25,7 +25,8 @@ int RunJobs(const FarmOptions& options) {
     char priority[16];
     std::snprintf(priority, sizeof priority, "%5d", job.priority());
     text += Column(job.id(), 14) + " " + Column(JobStateName(job.state()), 10) + " " + priority +
-            "  " + Column(job.name(), 24) + " " + CountsText(job.frames()) + "\n";
+            "  " + Column(job.name(), 24) + " " + CountsText(job.frames()) +
+            (job.after_job().empty() ? "" : ", after job " + job.after_job()) + "\n";
   }
   if (!trouble.empty()) console::Note("trouble: " + trouble);
   if (text.empty()) console::Note("no jobs");
@@ -40,7 +41,8 @@ void AddJobs(CLI::App& app, Run* run) {
   const auto options = std::make_shared<FarmOptions>();
   AddFarmOptions(command, options.get());
   command->footer(
-      "A line has id, state, priority, name and frames.\n\nExamples:\n  fjord jobs\n  fjord jobs "
+      "A line has id, state, priority, name, frames and the job after which it "
+      "runs.\n\nExamples:\n  fjord jobs\n  fjord jobs "
       "--json");
   command->callback([options, run] { *run = [options] { return RunJobs(*options); }; });
 }

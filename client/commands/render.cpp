@@ -132,9 +132,9 @@ void AddRender(CLI::App& app, Run* run) {
       ->check(CLI::Range(0, 1024));
   AddSceneChanges(command, &options->changes);
   command
-      ->add_option("--frame-time-limit", options->time_limit,
-                   "Seconds that one frame may take; then it is an error")
-      ->check(CLI::PositiveNumber);
+      ->add_option("--frame-limit", options->time_limit,
+                   "Seconds that one frame may take, else it is an error; 0, the default: any time")
+      ->check(CLI::Range(0., kMostFrameSeconds));
   command->add_flag("--replace", options->replace,
                     "Make frames of an older version of the scene in the folder again");
   AddBudget(command, &options->budget);

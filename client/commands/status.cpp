@@ -28,16 +28,18 @@ std::string Text(const v1::Job& job, const std::vector<v1::Frame>& frames) {
   text += "state     " + std::string(JobStateName(job.state())) + ", priority " +
           std::to_string(job.priority()) +
           (job.project().empty() ? "" : ", project " + Printable(job.project())) + "\n";
-  text += "frames    " + CountsText(job.frames()) + "\n";
+  text += "frames    " + CountsText(job.frames()) + "  (" + FramesText(job) + ")\n";
+  if (!job.after_job().empty()) text += "after     job " + job.after_job() + "\n";
   text += "rendered  " + FormatDuration(static_cast<double>(job.render_ms()) / 1000) +
           " of workers' time\n";
   if (job.eta_ms() > 0) text += "left      " + FormatDuration(job.eta_ms() / 1000.) + "\n";
   if (!job.trouble().empty()) text += "trouble   " + Printable(job.trouble()) + "\n";
-  if (!job.error().empty()) text += "error     " + job.error() + "\n";
+  if (!job.error().empty()) text += "error     " + PrintableLines(job.error()) + "\n";
   size_t errors = 0;
   for (const v1::Frame& frame : frames) {
     if (frame.state() == v1::FRAME_FAILED && ++errors <= kMostErrors)
-      text += "frame " + std::to_string(frame.number()) + ": " + frame.error() + "\n";
+      text +=
+          "frame " + std::to_string(frame.number()) + ": " + PrintableLines(frame.error()) + "\n";
   }
   return text;
 }

@@ -1,5 +1,6 @@
 #include <sys/random.h>
 
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -33,6 +34,7 @@ struct Options {
   double verify = 0;
   std::string after;
   std::string budget;
+  double frame_limit = 3600;  // seconds
   bool wait = false;
 };
 
@@ -65,8 +67,13 @@ Result<v1::SubmitResponse> Submit(const Options& options, FarmClient& client, Lo
   request.set_request_id(options.request_id.empty() ? RandomId() : options.request_id);
   request.set_name(scene.scene.name());
   request.set_scene_digest(digest);
-  request.set_first_frame(frames.first());
-  request.set_last_frame(frames.last());
+  for (const FrameSpan& span : frames.spans()) {
+    v1::FrameSpan& out = *request.add_span();
+    out.set_first(span.first);
+    out.set_last(span.last);
+    out.set_step(span.step);
+  }
+  request.set_frame_limit_ms(static_cast<uint32_t>(std::ceil(options.frame_limit * 1000)));
   request.set_priority(options.priority);
   request.set_project(options.project);
   request.set_verify_share(options.verify);
@@ -87,13 +94,6 @@ int RunSubmit(const Options& options) {
   if (!loaded.ok()) return console::Fail(loaded.errors);
   frames = WithinAnimation(*frames, 1, loaded.loaded.scene.output().frames(), options.scene);
   if (!frames.ok()) return console::Fail(frames.error());
-  if (frames->spans().size() > 1 || frames->spans()[0].step > 1) {
-    return console::Fail(MakeError(ErrorCode::kUsage,
-                                   "--frames " + options.frames +
-                                       ": a job is one range of frames, as 1-48; submit each range "
-                                       "as a job of its own"));
-  }
-
   if (*budget < kNoBudget) {
     const auto animation = Animation::Make(loaded.loaded);
     if (!animation.ok()) return console::Fail(InScene(animation.error(), options.scene));
@@ -148,6 +148,11 @@ void AddSubmit(CLI::App& app, Run* run) {
   command->add_option("--verify", options->verify, "Share of frames rendered twice and compared")
       ->check(CLI::Range(0., 1.));
   command->add_option("--after", options->after, "Wait until this job, by id or name, is done");
+  command
+      ->add_option("--frame-limit", options->frame_limit,
+                   "Seconds that one try of a frame may take, else it has failed; 0: any time")
+      ->check(CLI::Range(0., kMostFrameSeconds))
+      ->capture_default_str();
   AddBudget(command, &options->budget);
   command->add_flag("--wait", options->wait, "Follow the job to its end");
   AddPatience(command, &options->farm);
@@ -156,7 +161,7 @@ void AddSubmit(CLI::App& app, Run* run) {
       "Examples:\n"
       "  fjord submit examples/taiwan-rising.scene\n"
       "  fjord submit island.scene --frames 1-24 --priority 10 --wait\n"
-      "  fjord submit island.scene --frames 1-24 --size 50% --samples 1\n"
+      "  fjord submit island.scene --frames 1-96x8,96 --size 50% --samples 1\n"
       "  fjord submit island.scene --request-id island-7 --server 127.0.0.1:7433");
   command->callback([options, run] { *run = [options] { return RunSubmit(*options); }; });
 }

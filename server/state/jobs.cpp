@@ -1,5 +1,6 @@
 // What clients ask for, and what the planner answers.
 #include <algorithm>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "server/state/machine.h"
@@ -7,7 +8,7 @@
 namespace fjord::server {
 
 Answer<Machine::Submitted> Machine::Submit(JobSpec spec, Now now) {
-  FJORD_CHECK(spec.first >= 1 && spec.first <= spec.last, spec.first, spec.last);
+  FJORD_CHECK(!spec.frames.empty(), spec.request_id);
   if (const auto place = by_request_.find(spec.request_id); place != by_request_.end()) {
     const Job& known = jobs_.at(place->second);
     if (known.row.spec.content == spec.content) return Submitted{known.row.id, true};
@@ -22,14 +23,10 @@ Answer<Machine::Submitted> Machine::Submit(JobSpec spec, Now now) {
     return Refusal{Code::kLimit, "the coordinator holds " + std::to_string(jobs_.size()) +
                                      " jobs and takes no more"};
   }
-  const uint64_t total = uint64_t{spec.last} - spec.first + 1;
-  if (open_frames_ + total > config_.max_open_frames) {
-    return Refusal{Code::kLimit, "with these " + std::to_string(total) + " frames more than " +
-                                     std::to_string(config_.max_open_frames) +
-                                     " would wait: submit again when others have ended"};
-  }
+  const uint32_t total = spec.frames.size();
+  if (std::optional<Refusal> full = RefuseFrames(total)) return *std::move(full);
   JobRow row;
-  row.id = jobs_.empty() ? 1 : jobs_.rbegin()->first + 1;
+  row.id = last_job_ + 1;
   row.spec = std::move(spec);
   row.submitted_unix_ms = now.unix_ms;
   Job& job = AddJob(row);
@@ -41,17 +38,48 @@ Answer<Machine::Submitted> Machine::Submit(JobSpec spec, Now now) {
   return Submitted{row.id, false};
 }
 
+// None: so many frames more may wait.
+std::optional<Refusal> Machine::RefuseFrames(uint32_t more) const {
+  if (open_frames_ + more <= config_.max_open_frames) return std::nullopt;
+  return Refusal{Code::kLimit, "with these " + std::to_string(more) + " frames more than " +
+                                   std::to_string(config_.max_open_frames) +
+                                   " would wait: try again when others have ended"};
+}
+
+// None: the job can take this command.
+std::optional<Refusal> Machine::RefuseCommand(const Job& job, JobCommand command) const {
+  const std::string name = "job " + std::to_string(job.row.id);
+  switch (command) {
+    case JobCommand::kCancel:
+      if (!job.ended() || job.row.cancelled) return std::nullopt;
+      break;
+    case JobCommand::kDelete:
+      if (job.ended()) return std::nullopt;
+      return Refusal{Code::kPrecondition, name + " has not ended: cancel it first"};
+    case JobCommand::kRetry:
+      if (const Job* before = FailedBefore(job); before != nullptr) {
+        return Refusal{Code::kPrecondition, name + " runs after job " +
+                                                std::to_string(before->row.id) +
+                                                ", which did not succeed: retry that one first"};
+      }
+      if (job.ended()) return RefuseFrames(job.counts.total);
+      return std::nullopt;
+    case JobCommand::kPause:
+    case JobCommand::kResume:
+    case JobCommand::kPriority:
+      if (!job.ended()) return std::nullopt;
+      break;
+  }
+  return Refusal{Code::kPrecondition, name + " has ended"};
+}
+
 Answer<JobId> Machine::Command(JobId id, JobCommand command, int32_t priority, Now now) {
   const auto place = jobs_.find(id);
   if (place == jobs_.end()) {
     return Refusal{Code::kNotFound, "there is no job " + std::to_string(id)};
   }
   Job& job = place->second;
-  if (command == JobCommand::kCancel
-          ? job.ended() && !job.row.cancelled
-          : job.row.cancelled || (job.ended() && command != JobCommand::kRetry)) {
-    return Refusal{Code::kPrecondition, "job " + std::to_string(id) + " has ended"};
-  }
+  if (std::optional<Refusal> refusal = RefuseCommand(job, command)) return *std::move(refusal);
   switch (command) {
     case JobCommand::kCancel:
       job.row.cancelled = true;
@@ -67,6 +95,10 @@ Answer<JobId> Machine::Command(JobId id, JobCommand command, int32_t priority, N
     case JobCommand::kPriority:
       job.row.spec.priority = priority;
       break;
+    case JobCommand::kDelete:
+      Forget(job);
+      Finish(now);
+      return id;
   }
   Write(job.row);
   effects_.changed[id];
@@ -85,8 +117,51 @@ void Machine::SettleKeysOf(const Job& job, Now now) {
   }
 }
 
+// Its keys stay, with what is known of them: the next job that wants them is served from the store.
+void Machine::Forget(Job& job) {
+  const JobId id = job.row.id;
+  std::set<Key*> keys;
+  for (const Frame& frame : job.frames) {
+    if (frame.key != nullptr) keys.insert(frame.key);
+  }
+  for (Key* key : keys) {
+    std::erase_if(key->wanters, [id](const FrameRef ref) { return ref.job == id; });
+    const size_t sensible = Wanted(*key) ? key->slots() : 0;
+    while (key->live.size() > sensible) EndAttempt(key->live.back());
+  }
+  if (const auto followers = followers_.find(id); followers != followers_.end()) {
+    for (const JobId follower : followers->second) {
+      JobRow& row = jobs_.at(follower).row;
+      row.spec.after = 0;
+      Write(row);
+    }
+    followers_.erase(followers);
+  }
+  if (const auto before = followers_.find(job.row.spec.after); before != followers_.end()) {
+    before->second.erase(id);
+  }
+  by_request_.erase(job.row.spec.request_id);
+  touched_.erase(id);
+  effects_.changed[id].clear();  // who watches it hears that it is gone
+  Write(DropJob{id});
+  jobs_.erase(id);
+}
+
+// The job before this one in the order of --after, where it has ended without success.
+const Job* Machine::FailedBefore(const Job& job) const {
+  if (job.row.spec.after == 0) return nullptr;
+  const Job& before = jobs_.at(job.row.spec.after);
+  return before.ended() && before.state() != JobState::kDone ? &before : nullptr;
+}
+
+void Machine::AddWanter(Key& key, FrameRef ref) {
+  key.wanters.push_back(ref);
+  key.newest = std::max(key.newest, ref.job);
+}
+
 void Machine::Retry(Job& job, Now now) {
   job.row.error.clear();
+  if (std::exchange(job.row.cancelled, false)) SettleKeysOf(job, now);
   const std::set<uint32_t> failed = job.failed;
   for (const uint32_t index : failed) {
     Key* key = job.frames[index].key;
@@ -154,9 +229,9 @@ Frame* Machine::TakePlan(JobId id, uint32_t number) {
   const auto place = jobs_.find(id);
   if (place == jobs_.end()) return nullptr;
   Job& job = place->second;
-  const uint32_t index = number - job.row.spec.first;
-  if (index >= job.frames.size() || !job.frames[index].planning) return nullptr;
-  Frame& frame = job.frames[index];
+  const std::optional<uint32_t> index = job.IndexOf(number);
+  if (!index || !job.frames[*index].planning) return nullptr;
+  Frame& frame = job.frames[*index];
   frame.planning = false;
   --job.planning;
   touched_.insert(id);
@@ -166,11 +241,18 @@ Frame* Machine::TakePlan(JobId id, uint32_t number) {
 void Machine::Planned(JobId id, uint32_t number, const Digest& digest, Now now) {
   if (Frame* frame = TakePlan(id, number); frame != nullptr) {
     Job& job = jobs_.at(id);
-    const uint32_t index = number - job.row.spec.first;
+    const uint32_t index = *job.IndexOf(number);
     Key& key = AddKey(digest, job.row.spec.scene, number);
+    if (key.row.failed && id > key.newest) {
+      // A new job, which may allow more time, tries anew what failed for those before it.
+      key.row = KeyRow{key.digest};
+      key.failed_by.clear();
+      Write(key.row);
+      Settle(key, now);
+    }
     frame->key = &key;
     frame->cached = key.done();
-    key.wanters.push_back({id, index});
+    AddWanter(key, {id, index});
     Write(FrameRow{id, number, digest, frame->cached, {}});
     const uint32_t required = key.required;
     if (!key.done()) RequireProof(key, job);
@@ -187,7 +269,7 @@ void Machine::Planned(JobId id, uint32_t number, const Digest& digest, Now now) 
 void Machine::FrameUnplannable(JobId id, uint32_t number, std::string error, Now now) {
   if (TakePlan(id, number) != nullptr) {
     Job& job = jobs_.at(id);
-    const uint32_t index = number - job.row.spec.first;
+    const uint32_t index = *job.IndexOf(number);
     Write(FrameRow{id, number, std::nullopt, false, error});
     job.unkeyed_errors[index] = std::move(error);
     SetFrame(job, index, FrameState::kFailed);
@@ -198,8 +280,13 @@ void Machine::FrameUnplannable(JobId id, uint32_t number, std::string error, Now
 void Machine::SceneUnusable(JobId id, std::string error, Now now) {
   const auto place = jobs_.find(id);
   if (place == jobs_.end() || place->second.ended()) return;
-  Job& job = place->second;
-  job.row.error = error.empty() ? "the scene cannot be used" : std::move(error);
+  FailJob(place->second, error.empty() ? "the scene cannot be used" : std::move(error), now);
+  Finish(now);
+}
+
+// As a whole, for a reason that is no frame's.
+void Machine::FailJob(Job& job, std::string error, Now now) {
+  job.row.error = std::move(error);
   for (uint32_t index = 0; index < job.frames.size(); ++index) {
     Frame& frame = job.frames[index];
     if (frame.planning) --job.planning;
@@ -208,8 +295,7 @@ void Machine::SceneUnusable(JobId id, std::string error, Now now) {
   }
   SettleKeysOf(job, now);
   Write(job.row);
-  touched_.insert(id);
-  Finish(now);
+  touched_.insert(job.row.id);
 }
 
 }  // namespace fjord::server

@@ -7,13 +7,17 @@
 namespace fjord::server {
 namespace {
 
+constexpr int64_t kLookForGoneEveryMs = 60'000;
+
 Refusal NoSession() { return {Code::kNotFound, "session_id: no such session; join again"}; }
 
 }  // namespace
 
 Answer<std::vector<AttemptId>> Machine::Join(const JoinCall& call, Now now) {
-  if (roster_.FindWorker(call.worker) == nullptr &&
-      roster_.workers().size() >= config_.max_workers) {
+  const auto too_many = [&] { return roster_.workers().size() >= config_.max_workers; };
+  const bool stranger = roster_.FindWorker(call.worker) == nullptr;
+  if (stranger && too_many()) roster_.ForgetGone(now.mono_ms);
+  if (stranger && too_many()) {
     return Refusal{Code::kLimit, "the coordinator knows " + std::to_string(config_.max_workers) +
                                      " workers and takes no more"};
   }
@@ -33,7 +37,7 @@ Answer<std::vector<AttemptId>> Machine::Join(const JoinCall& call, Now now) {
     CloseSession(worker.session, call.holdings, same_process ? Loss::kGivenBack : Loss::kWorkerLost,
                  now);
     for (const AttemptId id : leases_.HeldBy(worker.session)) kept.push_back(*leases_.Find(id));
-    roster_.Close(worker.session);
+    roster_.Close(worker.session, now.mono_ms);
   }
   worker.host = call.host;
   worker.version = call.version;
@@ -148,7 +152,7 @@ Answer<bool> Machine::Fail(const std::string& session_id, AttemptId id, std::str
 Answer<bool> Machine::Leave(const std::string& session_id, Now now) {
   if (roster_.FindSession(session_id) == nullptr) return false;
   CloseSession(session_id, {}, Loss::kGivenBack, now);
-  roster_.Close(session_id);
+  roster_.Close(session_id, now.mono_ms);
   dispatch_ = true;
   Finish(now);
   return true;
@@ -158,7 +162,7 @@ void Machine::Tick(Now now) {
   for (const std::string& id : roster_.SilentSince(now.mono_ms - config_.term_ms)) {
     Say(false, "worker " + roster_.FindSession(id)->worker + " is not heard of any more");
     CloseSession(id, {}, Loss::kWorkerLost, now);
-    roster_.Close(id);
+    roster_.Close(id, now.mono_ms);
     dispatch_ = true;
   }
   for (const LeaseTable::Due& due : leases_.DueBy(now.mono_ms)) {
@@ -170,6 +174,10 @@ void Machine::Tick(Now now) {
                    "no progress for " + std::to_string(config_.stall_ms / 1000) + " s", false);
     }
     Settle(key, now);
+  }
+  if (now.mono_ms >= look_for_gone_ms_) {
+    look_for_gone_ms_ = now.mono_ms + kLookForGoneEveryMs;
+    roster_.ForgetGone(now.mono_ms - config_.forget_ms);
   }
   if (held_until_ms_ != 0 && now.mono_ms >= held_until_ms_) {
     held_until_ms_ = 0;
@@ -187,6 +195,7 @@ std::optional<int64_t> Machine::NextWake() const {
   const auto at_latest = [&](int64_t time) { wake = std::min(wake.value_or(time), time); };
   if (const auto heard = roster_.OldestHeard()) at_latest(*heard + config_.term_ms);
   if (held_until_ms_ != 0) at_latest(held_until_ms_);
+  if (!roster_.workers().empty()) at_latest(look_for_gone_ms_);
   for (const auto& [id, session] : roster_.sessions()) {
     if (session.parked) at_latest(session.parked->until_ms);
   }

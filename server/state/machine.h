@@ -35,7 +35,8 @@ struct MachineConfig {
   size_t max_jobs = 100'000;
   uint64_t max_open_frames = 4'000'000;
   size_t max_workers = 10'000;
-  size_t max_held = 16;  // leases of one session
+  size_t max_held = 16;            // leases of one session
+  int64_t forget_ms = 86'400'000;  // a worker that is gone for so long is listed no more
 };
 
 struct PlanRequest {
@@ -66,7 +67,7 @@ struct Effects {
   std::vector<Notice> notices;
 };
 
-enum class JobCommand : uint8_t { kCancel = 1, kPause, kResume, kRetry, kPriority };
+enum class JobCommand : uint8_t { kCancel = 1, kPause, kResume, kRetry, kPriority, kDelete };
 enum class WorkerCommand : uint8_t { kDrain = 1, kQuarantine, kRelease };
 enum class Outcome : uint8_t { kCommitted = 1, kDuplicate, kConflict, kUnknownUnit, kMissingBlob };
 
@@ -178,6 +179,12 @@ class Machine {
   Job& AddJob(JobRow row);
   // jobs.cpp
   bool Runnable(const Job& job) const;
+  std::optional<Refusal> RefuseFrames(uint32_t more) const;
+  std::optional<Refusal> RefuseCommand(const Job& job, JobCommand command) const;
+  const Job* FailedBefore(const Job& job) const;
+  void FailJob(Job& job, std::string error, Now now);
+  void Forget(Job& job);
+  void AddWanter(Key& key, FrameRef ref);
   void PlanAhead(Job& job);
   void Retry(Job& job, Now now);
   void SettleKeysOf(const Job& job, Now now);
@@ -221,6 +228,7 @@ class Machine {
   std::vector<Job*> Candidates();
   bool Eligible(const Key& key, const Worker& worker, Now now) const;
   std::optional<Grant> GrantOne(const Session& session, Now now);
+  uint32_t LimitOf(const Key& key) const;
   void AnswerParked(Session& session, std::vector<Grant> grants, bool drain);
 
   void Write(Record record) { effects_.records.push_back(std::move(record)); }
@@ -241,6 +249,8 @@ class Machine {
   std::map<std::string, uint32_t> open_of_project_;
   uint64_t open_frames_ = 0;
   int64_t held_until_ms_ = 0;  // recovered frames wait until then
+  JobId last_job_ = 0;         // the highest id given
+  int64_t look_for_gone_ms_ = 0;
   uint64_t arrivals_ = 0;
   uint64_t work_ = 0;
   bool dispatch_ = false;  // something happened that may let a parked call have work

@@ -1,4 +1,6 @@
 // From the rows of the journal to the state they mean.
+#include <algorithm>
+
 #include "engine/base/check.h"
 #include "server/state/machine.h"
 #include "server/state/order.h"
@@ -15,10 +17,11 @@ Machine::Machine(const MachineConfig& config, Snapshot snapshot, Now now)
 
 Job& Machine::AddJob(JobRow row) {
   const JobId id = row.id;
+  last_job_ = std::max(last_job_, id);
   Job& job = jobs_[id];
   by_request_[row.spec.request_id] = id;
   job.row = std::move(row);
-  const uint32_t total = job.row.spec.last - job.row.spec.first + 1;
+  const uint32_t total = job.row.spec.frames.size();
   job.order = CoarseToFine(total);
   job.frames.resize(total);
   for (uint32_t position = 0; position < total; ++position) {
@@ -31,6 +34,7 @@ Job& Machine::AddJob(JobRow row) {
 }
 
 void Machine::Recover(Snapshot snapshot, Now now) {
+  last_job_ = snapshot.last_job;
   for (WorkerRow& row : snapshot.workers) roster_.AddWorker(std::move(row));
   for (JobRow& row : snapshot.jobs) {
     Job& job = AddJob(std::move(row));
@@ -45,13 +49,14 @@ void Machine::Recover(Snapshot snapshot, Now now) {
     const auto place = jobs_.find(row.job);
     FJORD_CHECK(place != jobs_.end(), row.job, row.frame);
     Job& job = place->second;
-    const uint32_t index = row.frame - job.row.spec.first;
-    FJORD_CHECK(index < job.frames.size(), row.job, row.frame);
+    const std::optional<uint32_t> place_of_frame = job.IndexOf(row.frame);
+    FJORD_CHECK(place_of_frame.has_value(), row.job, row.frame);
+    const uint32_t index = *place_of_frame;
     if (row.key) {
       Key& key = AddKey(*row.key, job.row.spec.scene, row.frame);
       job.frames[index].key = &key;
       job.frames[index].cached = row.cached;
-      key.wanters.push_back({row.job, index});
+      AddWanter(key, {row.job, index});
       key.hold_until_ms = held_until_ms_;
     } else if (!row.error.empty()) {
       job.unkeyed_errors[index] = row.error;
@@ -69,6 +74,7 @@ void Machine::Recover(Snapshot snapshot, Now now) {
     Key& key = AddKey(row.key, {}, 0);
     key.row = std::move(row);
   }
+  roster_.AllGoneSince(now.mono_ms);
   for (auto& [digest, key] : keys_) {
     key.verdict = Judge(key.evidence, 1);
     for (const FrameRef ref : key.wanters) {

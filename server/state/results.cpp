@@ -9,9 +9,10 @@ namespace fjord::server {
 bool Machine::SceneWants(const Digest& scene, uint32_t frame) const {
   for (const JobId id : open_) {
     const Job& job = jobs_.at(id);
-    const uint32_t index = frame - job.row.spec.first;
-    if (job.row.spec.scene == scene && frame >= job.row.spec.first && index < job.frames.size() &&
-        job.frames[index].key == nullptr && job.frames[index].state == FrameState::kWaiting) {
+    if (job.row.spec.scene != scene) continue;
+    const std::optional<uint32_t> index = job.IndexOf(frame);
+    if (index && job.frames[*index].key == nullptr &&
+        job.frames[*index].state == FrameState::kWaiting) {
       return true;
     }
   }

@@ -36,11 +36,25 @@ Session& Roster::Open(Worker& worker, const std::string& session, int64_t now_ms
   return opened;
 }
 
-void Roster::Close(const std::string& session) {
+void Roster::Close(const std::string& session, int64_t now_ms) {
   const auto place = sessions_.find(session);
   FJORD_CHECK(place != sessions_.end(), session);
-  workers_.at(place->second.worker).session.clear();
+  Worker& worker = workers_.at(place->second.worker);
+  worker.session.clear();
+  worker.gone_ms = now_ms;
   sessions_.erase(place);
+}
+
+void Roster::AllGoneSince(int64_t now_ms) {
+  for (auto& [id, worker] : workers_) worker.gone_ms = now_ms;
+}
+
+void Roster::ForgetGone(int64_t since_ms) {
+  std::erase_if(workers_, [since_ms](const auto& entry) {
+    const Worker& worker = entry.second;
+    return !worker.alive() && worker.gone_ms <= since_ms && !worker.row.draining &&
+           !worker.row.quarantined;
+  });
 }
 
 std::vector<std::string> Roster::SilentSince(int64_t before_ms) const {

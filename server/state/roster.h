@@ -21,6 +21,9 @@ struct Grant {
   uint32_t frame = 0;
   Digest key;
   bool alone = false;
+  uint32_t limit_ms = 0;  // 0: none
+  JobId job = 0;          // whose frame it is, for people
+  std::string job_name;
 };
 
 struct Worker {
@@ -30,6 +33,7 @@ struct Worker {
   uint32_t threads = 0;
   std::vector<std::string> tags;
   std::string session;  // empty: gone
+  int64_t gone_ms = 0;  // since when
   uint64_t frames_done = 0;
   uint64_t render_ms = 0;
   std::optional<int64_t> refused_ms;  // when the log last said that another was refused its name
@@ -66,7 +70,11 @@ class Roster {
   Worker& AddWorker(WorkerRow row);  // or the one there is
   // R1: the worker must have no session.
   Session& Open(Worker& worker, const std::string& session, int64_t now_ms);
-  void Close(const std::string& session);
+  void Close(const std::string& session, int64_t now_ms);
+  // Forgets whoever is gone since then and bears no mark of a person or the judge.
+  void ForgetGone(int64_t since_ms);
+  // At a start, when nobody has joined yet.
+  void AllGoneSince(int64_t now_ms);
 
   std::vector<std::string> SilentSince(int64_t before_ms) const;
   std::optional<int64_t> OldestHeard() const;

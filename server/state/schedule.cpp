@@ -132,6 +132,21 @@ bool Machine::Eligible(const Key& key, const Worker& worker, Now now) const {
   return true;
 }
 
+// The longest time that any job which wants the key allows it; 0: any.
+uint32_t Machine::LimitOf(const Key& key) const {
+  uint32_t limit = 0;
+  JobId seen = 0;
+  for (const FrameRef ref : key.wanters) {
+    if (ref.job == seen) continue;
+    seen = ref.job;
+    const JobRow& row = jobs_.at(ref.job).row;
+    if (row.cancelled || !row.error.empty()) continue;
+    if (row.spec.frame_limit_ms == 0) return 0;
+    limit = std::max(limit, row.spec.frame_limit_ms);
+  }
+  return limit;
+}
+
 std::optional<Grant> Machine::GrantOne(const Session& session, Now now) {
   const Worker& worker = *roster_.FindWorker(session.worker);
   const std::vector<AttemptId> held = leases_.HeldBy(session.id);
@@ -151,7 +166,8 @@ std::optional<Grant> Machine::GrantOne(const Session& session, Now now) {
       const Attempt& attempt = leases_.Grant(session.id, std::move(unit), now.mono_ms);
       key.live.push_back(attempt.id);
       Settle(key, now);
-      return Grant{attempt.id, attempt.scene, attempt.frame, attempt.key, alone};
+      return Grant{attempt.id, attempt.scene, attempt.frame, attempt.key,
+                   alone,      LimitOf(key),  job->row.id,   job->row.spec.name};
     }
   }
   return std::nullopt;

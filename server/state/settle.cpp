@@ -98,6 +98,13 @@ void Machine::SettleJobs(Now now) {
     touched_.erase(touched_.begin());
     ++work_;
     const JobId id = job.row.id;
+    if (const Job* before = FailedBefore(job); before != nullptr && !job.ended()) {
+      FailJob(job,
+              "job " + std::to_string(before->row.id) +
+                  (before->row.cancelled ? " was cancelled" : " failed") +
+                  ", and this one was to run after it",
+              now);
+    }
     if (job.ended() != (job.row.ended_unix_ms != 0)) {
       job.row.ended_unix_ms = job.ended() ? std::max<int64_t>(now.unix_ms, 1) : 0;
       Write(job.row);
@@ -107,7 +114,7 @@ void Machine::SettleJobs(Now now) {
     if (job.ended() && open_.erase(id) > 0) {
       open_frames_ -= job.counts.total;
       --open_of_project_[job.row.spec.project];
-      // Jobs that wait for this one may be planned now.
+      // Jobs that wait for this one may be planned now, or end, too.
       if (const auto place = followers_.find(id); place != followers_.end()) {
         touched_.insert(place->second.begin(), place->second.end());
       }

@@ -28,6 +28,7 @@ struct Key {
   uint32_t required = 1;  // deliveries until it is settled
   Verdict verdict;        // of the evidence
   std::vector<FrameRef> wanters;
+  JobId newest = 0;  // of all jobs that ever wanted it
   std::vector<AttemptId> live;
   std::set<std::string> failed_by;
   int64_t hold_until_ms = 0;  // after a restart somebody may still be rendering it
@@ -66,7 +67,9 @@ struct Job {
   uint32_t rendered = 0;   // results behind render_ms
   bool recovered = false;  // was there when this coordinator started
 
-  uint32_t FrameNumber(uint32_t index) const { return row.spec.first + index; }
+  uint32_t FrameNumber(uint32_t index) const { return row.spec.frames[index]; }
+  // The job's own frames alone: none for others.
+  std::optional<uint32_t> IndexOf(uint32_t number) const { return row.spec.frames.IndexOf(number); }
   bool ended() const {
     return row.cancelled || !row.error.empty() || counts.done + counts.failed == counts.total;
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/digest.h"
+#include "engine/base/frame_set.h"
 
 namespace fjord::server {
 
@@ -43,11 +44,11 @@ struct JobSpec {
   std::string name;
   std::string project;
   Digest scene;
-  uint32_t first = 1;
-  uint32_t last = 1;
+  FrameSet frames;
   int32_t priority = 0;
   double verify_share = 0;
   JobId after = 0;
+  uint32_t frame_limit_ms = 0;  // that one try may take; 0: any time
 };
 
 // --- what the journal holds; each row replaces the one with the same identity ---
@@ -105,11 +106,17 @@ struct DropResult {
   Digest pixel;
 };
 
-using Record = std::variant<JobRow, FrameRow, ResultRow, DropResult, KeyRow, WorkerRow>;
+// A job that is forgotten, with its frames. Its id is never given again.
+struct DropJob {
+  JobId id = 0;
+};
+
+using Record = std::variant<JobRow, FrameRow, ResultRow, DropResult, KeyRow, WorkerRow, DropJob>;
 
 // All that a coordinator knows when it starts.
 struct Snapshot {
   uint64_t epoch = 1;  // of this start; 1: a fresh journal
+  JobId last_job = 0;  // the highest id that was dropped
   std::vector<JobRow> jobs;
   std::vector<FrameRow> frames;
   std::vector<ResultRow> results;

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "tests/client/run_program.h"
@@ -20,10 +21,12 @@ using ::testing::HasSubstr;
 
 class FarmTest : public ::testing::Test {
  protected:
-  void StartFarm(int workers) {
-    farm_ = std::make_unique<RunningProgram>(std::vector<std::string>{
-        FJORD_PROGRAM, "farm", "--workers", std::to_string(workers), "--data", folder_ / "data",
-        "--listen", "127.0.0.1:0", "--with-parent"});
+  void StartFarm(int workers, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> command = {
+        FJORD_PROGRAM,    "farm",     "--workers",   std::to_string(workers), "--data",
+        folder_ / "data", "--listen", "127.0.0.1:0", "--with-parent"};
+    command.insert(command.end(), more.begin(), more.end());
+    farm_ = std::make_unique<RunningProgram>(command);
     ASSERT_TRUE(WaitUntil([&] { return farm_->OutSoFar().find('\n') != std::string::npos; }));
     const std::string out = farm_->OutSoFar();
     ASSERT_EQ(out.rfind("listening on ", 0), 0u) << out;
@@ -169,6 +172,77 @@ TEST_F(FarmTest, JobsCanBePausedResumedAndCancelled) {
   EXPECT_EQ(state({"cancel", job, "--json"}), "cancelled");
   EXPECT_EQ(Fjord({"watch", job}).code, 1);
   EXPECT_EQ(Fjord({"fetch", job, "-o", folder_ / "part"}).code, 1);
+}
+
+TEST_F(FarmTest, F2_AJobIsAListOfFrames) {
+  ASSERT_NO_FATAL_FAILURE(StartFarm(1));
+  const ProgramRun run = Fjord({"submit", scene_, "--frames", "9,1-5x2,3", "--wait", "--json"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto job = nlohmann::json::parse(run.out)["job"];
+  EXPECT_EQ(job["frames"]["total"], 4);
+  EXPECT_EQ(job["frame_list"], "1-5x2,9");
+  ASSERT_EQ(Fjord({"fetch", job["id"], "-o", folder_ / "out"}).code, 0);
+  std::set<std::string> files;
+  for (const auto& file : fs::directory_iterator(folder_ / "out"))
+    files.insert(file.path().filename());
+  EXPECT_EQ(files, (std::set<std::string>{"manifest.json", "tiny.0001.png", "tiny.0003.png",
+                                          "tiny.0005.png", "tiny.0009.png"}));
+  EXPECT_EQ(Fjord({"submit", scene_, "--frames", "1-13x4,20"}).code, 1) << "12 frames there are";
+}
+
+// Case: a frame that never ends.
+TEST_F(FarmTest, F5_AFrameOverItsTimeLimitHasFailedWithTheReason) {
+  ASSERT_NO_FATAL_FAILURE(StartFarm(1, {"--budget", "unlimited"}));
+  const std::string endless = std::string(FJORD_SOURCE_DIR) + "/tests/cases/36.scene";
+  const ProgramRun run = Fjord(
+      {"submit", endless, "--budget", "unlimited", "--frame-limit", "0.3", "--wait", "--json"});
+  EXPECT_EQ(run.code, 1);
+  const auto job = nlohmann::json::parse(run.out)["job"];
+  EXPECT_EQ(job["state"], "failed");
+  EXPECT_EQ(job["frame_limit"], .3);
+  EXPECT_THAT(job["error"].get<std::string>(),
+              HasSubstr("took longer than its 0.3 s (--frame-limit)"));
+  EXPECT_EQ(Fjord({"submit", scene_, "--wait"}).code, 0) << "the worker lives";
+}
+
+// Case: draining a worker ended the whole farm.
+TEST_F(FarmTest, F5_ADrainedWorkerStaysAwayUntilItIsReleased) {
+  ASSERT_NO_FATAL_FAILURE(StartFarm(1));
+  const auto worker = [&] { return nlohmann::json::parse(Fjord({"workers", "--json"}).out); };
+  ASSERT_TRUE(WaitUntil([&] { return worker().size() == 1; }));
+  const std::string id = worker()[0]["id"];
+  ASSERT_EQ(Fjord({"workers", "drain", id}).code, 0);
+  std::string job = Fjord({"submit", scene_}).out;
+  job.pop_back();
+  EXPECT_EQ(worker()[0]["state"], "draining");
+  EXPECT_EQ(nlohmann::json::parse(Fjord({"status", job, "--json"}).out)["frames"]["waiting"], 12);
+  ASSERT_EQ(Fjord({"workers", "release", id}).code, 0);
+  EXPECT_EQ(Fjord({"watch", job}).code, 0);
+  farm_->Signal(SIGTERM);
+  const ProgramRun ended = farm_->Wait();
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(ended.err.find("starting it again"), std::string::npos) << ended.err;
+}
+
+TEST_F(FarmTest, F7_WhatComesAfterACancelledJobEndsAndBothCanGoOn) {
+  ASSERT_NO_FATAL_FAILURE(StartFarm(1));
+  const std::string scene = folder_.Write("long.scene", TinyScene(3000));
+  ASSERT_EQ(Fjord({"submit", scene, "--frames", "1-3000x2"}).out, "1\n");
+  ASSERT_EQ(Fjord({"submit", scene_, "--after", "1"}).out, "2\n");
+  EXPECT_THAT(Fjord({"jobs"}).out, HasSubstr(", after job 1"));
+  EXPECT_THAT(Fjord({"status", "2"}).out, HasSubstr("after     job 1"));
+  EXPECT_EQ(nlohmann::json::parse(Fjord({"status", "2", "--json"}).out)["after"], "1");
+  EXPECT_EQ(Fjord({"delete", "1"}).code, 1) << "it has not ended";
+  ASSERT_EQ(Fjord({"cancel", "1"}).code, 0);
+  const ProgramRun watched = Fjord({"watch", "2"});
+  EXPECT_EQ(watched.code, 1);
+  EXPECT_THAT(watched.err, HasSubstr("job 1 was cancelled, and this one was to run after it"));
+  EXPECT_THAT(Fjord({"retry", "2"}).err, HasSubstr("retry that one first"));
+  EXPECT_EQ(Fjord({"retry", "1"}).code, 0);
+  EXPECT_EQ(Fjord({"retry", "2"}).code, 0);
+  ASSERT_EQ(Fjord({"cancel", "1"}).code, 0);
+  EXPECT_EQ(Fjord({"delete", "1", "2"}).code, 0);
+  EXPECT_EQ(nlohmann::json::parse(Fjord({"jobs", "--json"}).out).size(), 0u);
 }
 
 TEST_F(FarmTest, TheFarmDiesWithItsParent) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
@@ -23,6 +24,7 @@ struct Rows {
   std::map<std::tuple<Digest, AttemptId, std::string, Digest>, ResultRow> results;
   std::map<Digest, KeyRow> keys;
   std::map<std::string, WorkerRow> workers;
+  JobId last_job = 0;
 
   void Take(const Record& record) {
     struct Visitor {
@@ -37,6 +39,11 @@ struct Rows {
       }
       void operator()(const KeyRow& row) { rows.keys[row.key] = row; }
       void operator()(const WorkerRow& row) { rows.workers[row.id] = row; }
+      void operator()(const DropJob& row) {
+        rows.jobs.erase(row.id);
+        std::erase_if(rows.frames, [&](const auto& entry) { return entry.first.first == row.id; });
+        rows.last_job = std::max(rows.last_job, row.id);
+      }
     };
     std::visit(Visitor{*this}, record);
   }
@@ -44,6 +51,7 @@ struct Rows {
   Snapshot Load(uint64_t epoch) const {
     Snapshot snapshot;
     snapshot.epoch = epoch;
+    snapshot.last_job = last_job;
     for (const auto& [id, row] : jobs) snapshot.jobs.push_back(row);
     for (const auto& [id, row] : frames) snapshot.frames.push_back(row);
     for (const auto& [id, row] : results) snapshot.results.push_back(row);
@@ -86,8 +94,7 @@ class BenchFarm {
     spec.request_id = spec.request_id.empty() ? "r" + std::to_string(++requests_) : spec.request_id;
     spec.content = spec.content.empty() ? spec.request_id : spec.content;
     spec.scene = Name(scene);
-    spec.first = 1;
-    spec.last = frames;
+    if (spec.frames.empty()) spec.frames = FrameSet(1, frames);
     const auto answer = machine_->Submit(spec, now());
     Pump();
     return std::holds_alternative<Machine::Submitted>(answer)
@@ -167,9 +174,11 @@ class BenchFarm {
     const auto* renewed = std::get_if<Machine::Renewed>(&answer);
     return renewed != nullptr && renewed->go_on[0];
   }
-  void Command(JobId job, JobCommand command, int32_t priority = 0) {
-    (void)machine_->Command(job, command, priority, now());
+  // False: refused.
+  bool Command(JobId job, JobCommand command, int32_t priority = 0) {
+    const auto answer = machine_->Command(job, command, priority, now());
     Pump();
+    return std::holds_alternative<JobId>(answer);
   }
 
   void LoseBlob(const Digest& blob) {
@@ -185,7 +194,7 @@ class BenchFarm {
   JobState StateOf(JobId job) const { return machine_->FindJob(job)->state(); }
   FrameState FrameOf(JobId job, uint32_t frame) const {
     const Job* found = machine_->FindJob(job);
-    return found->frames[frame - found->row.spec.first].state;
+    return found->frames[*found->IndexOf(frame)].state;
   }
   const Key& KeyAt(const Digest& digest) const { return *machine_->FindKey(digest); }
   const Rows& rows() const { return rows_; }

@@ -112,13 +112,18 @@ class Story {
     spec.priority = Pick(-1, 2);
     spec.project = Pick(0, 2) == 0 ? "p" : "q";
     spec.verify_share = Pick(0, 3) == 0 ? .5 : 0;
+    if (Pick(0, 3) == 0 && !farm_.machine().jobs().empty()) {
+      spec.after = farm_.machine().jobs().rbegin()->first;
+    }
+    if (Pick(0, 3) == 0) spec.frames = *FrameSet::Parse("2-9x3,20");
+    spec.frame_limit_ms = Pick(0u, 3u) * 1'000;
     const char* scene = *rc::gen::element("s", "t", "gappy", "broken");
     farm_.Submit(scene, Pick(1u, 9u), spec);
   }
   void Command() {
     if (farm_.machine().jobs().empty()) return;
-    const JobId job = Pick<JobId>(1, farm_.machine().jobs().size() + 1);
-    farm_.Command(job, static_cast<JobCommand>(Pick(1, 6)), Pick(-2, 3));
+    const JobId job = Pick<JobId>(1, farm_.machine().jobs().rbegin()->first + 1);
+    farm_.Command(job, static_cast<JobCommand>(Pick(1, 7)), Pick(-2, 3));
   }
   void Join() {
     const std::string worker = Worker();

@@ -22,7 +22,7 @@ JobSpec Spec(uint32_t frames) {
   JobSpec spec;
   spec.request_id = "r";
   spec.scene = Name("scene");
-  spec.last = frames;
+  spec.frames = FrameSet(1, frames);
   return spec;
 }
 

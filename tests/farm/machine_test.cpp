@@ -202,6 +202,132 @@ TEST_F(MachineTest, F5_AWorkerIdHasOneLivingSession) {
   EXPECT_EQ(refusal(0), std::nullopt);
 }
 
+TEST_F(MachineTest, F2_AJobHasTheFramesOfItsSpans) {
+  JobSpec spec;
+  spec.frames = *FrameSet::Parse("2-8x3,12");
+  const JobId job = farm_.Submit("a", 0, spec);
+  farm_.Join("w");
+  std::set<uint32_t> made;
+  while (const auto grant = farm_.Acquire("w")) {
+    made.insert(grant->frame);
+    EXPECT_EQ(grant->job, job);
+    farm_.Complete("w", *grant);
+  }
+  EXPECT_EQ(made, (std::set<uint32_t>{2, 5, 8, 12}));
+  EXPECT_EQ(farm_.CountsOf(job), (Counts{4, 0, 0, 4, 0, 0}));
+  farm_.Restart();
+  EXPECT_EQ(farm_.FrameOf(job, 12), S::kDone);
+  EXPECT_EQ(farm_.CountsOf(farm_.Submit("a", 12)).cached, 4u);
+}
+
+TEST_F(MachineTest, F5_AFrameHasTheTimeThatTheMostGenerousJobAllows) {
+  const auto limit = [&](std::vector<uint32_t> limits) {
+    const std::string scene = "scene " + std::to_string(farm_.machine().jobs().size());
+    for (const uint32_t each : limits) {
+      JobSpec spec;
+      spec.frame_limit_ms = each;
+      farm_.Submit(scene, 1, spec);
+    }
+    const Grant grant = *farm_.Acquire("w");
+    farm_.Complete("w", grant);
+    return grant.limit_ms;
+  };
+  farm_.Join("w");
+  EXPECT_EQ(limit({0}), 0u);
+  EXPECT_EQ(limit({5'000}), 5'000u);
+  EXPECT_EQ(limit({5'000, 9'000, 2'000}), 9'000u);
+  EXPECT_EQ(limit({5'000, 0}), 0u) << "any time";
+}
+
+TEST_F(MachineTest, F5_ANewJobTriesAnewWhatFailedForThoseBeforeIt) {
+  const JobId job = farm_.Submit("a", 1);
+  farm_.Join("w");
+  while (const auto grant = farm_.Acquire("w")) farm_.Fail("w", *grant);
+  EXPECT_EQ(farm_.StateOf(job), JobState::kFailed);
+  const JobId again = farm_.Submit("a", 1);
+  EXPECT_EQ(farm_.StateOf(again), JobState::kQueued);
+  uint32_t tries = 0;
+  while (const auto grant = farm_.Acquire("w")) tries += farm_.Fail("w", *grant);
+  EXPECT_EQ(tries, 3u) << "and no more than the usual";
+  EXPECT_EQ(farm_.StateOf(again), JobState::kFailed);
+  farm_.Restart();
+  EXPECT_EQ(farm_.StateOf(again), JobState::kFailed) << "a restart is no new job";
+}
+
+TEST_F(MachineTest, F7_WhatWasToRunAfterAJobThatDidNotSucceedEndsWithTheReason) {
+  const JobId first = farm_.Submit("a", 2);
+  JobSpec follows;
+  follows.after = first;
+  const JobId second = farm_.Submit("b", 3, follows);
+  follows.request_id.clear();
+  follows.after = second;
+  const JobId third = farm_.Submit("c", 1, follows);
+  EXPECT_EQ(farm_.StateOf(third), JobState::kQueued);
+  farm_.Command(first, JobCommand::kCancel);
+  EXPECT_EQ(farm_.StateOf(second), JobState::kFailed);
+  EXPECT_EQ(farm_.machine().FindJob(second)->row.error,
+            "job 1 was cancelled, and this one was to run after it");
+  EXPECT_EQ(farm_.CountsOf(second), (Counts{3, 0, 0, 0, 0, 3}));
+  EXPECT_EQ(farm_.StateOf(third), JobState::kFailed);
+  EXPECT_EQ(farm_.machine().FindJob(third)->row.error,
+            "job 2 failed, and this one was to run after it");
+  follows.after = first;
+  EXPECT_EQ(farm_.StateOf(farm_.Submit("d", 1, follows)), JobState::kFailed) << "at once";
+  farm_.Restart();
+  EXPECT_EQ(farm_.StateOf(third), JobState::kFailed);
+  EXPECT_FALSE(farm_.Command(second, JobCommand::kRetry)) << "the first one first";
+  // A cancelled job goes on, and those after it can.
+  EXPECT_TRUE(farm_.Command(first, JobCommand::kRetry));
+  EXPECT_TRUE(farm_.Command(second, JobCommand::kRetry));
+  EXPECT_EQ(farm_.StateOf(second), JobState::kQueued);
+  farm_.Pass(10'000);
+  farm_.Join("w");
+  while (const auto grant = farm_.Acquire("w")) farm_.Complete("w", *grant);
+  EXPECT_EQ(farm_.StateOf(first), JobState::kDone);
+  EXPECT_EQ(farm_.StateOf(second), JobState::kDone);
+}
+
+TEST_F(MachineTest, F2_ADeletedJobIsForgottenAndItsPicturesAreNot) {
+  const JobId job = farm_.Submit("a", 2);
+  JobSpec follows;
+  follows.after = job;
+  const JobId follower = farm_.Submit("b", 1, follows);
+  EXPECT_FALSE(farm_.Command(job, JobCommand::kDelete)) << "it has not ended";
+  farm_.Join("w");
+  while (const auto grant = farm_.Acquire("w")) farm_.Complete("w", *grant);
+  EXPECT_TRUE(farm_.Command(job, JobCommand::kDelete));
+  EXPECT_EQ(farm_.machine().FindJob(job), nullptr);
+  EXPECT_EQ(farm_.StateOf(follower), JobState::kDone);
+  EXPECT_FALSE(farm_.Command(job, JobCommand::kRetry));
+  EXPECT_TRUE(farm_.rows().frames.lower_bound({job, 0})->first.first != job);
+  farm_.Restart();
+  EXPECT_EQ(farm_.machine().FindJob(job), nullptr);
+  EXPECT_TRUE(farm_.Command(follower, JobCommand::kDelete));
+  farm_.Restart();
+  const JobId again = farm_.Submit("a", 2);
+  EXPECT_GT(again, follower) << "no id is given twice";
+  EXPECT_EQ(farm_.CountsOf(again).cached, 2u);
+}
+
+TEST_F(MachineTest, F8_WorkersThatAreGoneForADayAreForgotten) {
+  for (const char* worker : {"gone", "drained", "alive"}) farm_.Join(worker);
+  (void)farm_.machine().CommandWorker("drained", WorkerCommand::kDrain, farm_.now());
+  const auto hours = [&](int count) {
+    for (int i = 0; i < count * 360; ++i) {
+      farm_.Pass(10'000 - 1);
+      JoinCall call;
+      call.worker = call.session = "alive";
+      (void)farm_.Join(call);
+    }
+  };
+  hours(23);
+  EXPECT_NE(farm_.machine().roster().FindWorker("gone"), nullptr);
+  hours(2);
+  EXPECT_EQ(farm_.machine().roster().FindWorker("gone"), nullptr);
+  EXPECT_NE(farm_.machine().roster().FindWorker("drained"), nullptr) << "somebody's wish";
+  EXPECT_NE(farm_.machine().roster().FindWorker("alive"), nullptr);
+}
+
 TEST_F(MachineTest, F2_ALostPictureIsMadeAgain) {
   const JobId job = farm_.Submit("a", 2), other = farm_.Submit("b", 1);
   farm_.Join("w");

@@ -240,6 +240,8 @@ class Sweep {
       held_.clear();
       done_.insert(frame);
     }
+    DeleteAnother();
+    if (testing::Test::HasFatalFailure()) return;
     ExpectAllIsThere();
     coordinator_.process().Kill(SIGTERM);
     const int status = coordinator_.process().Wait();
@@ -270,6 +272,37 @@ class Sweep {
     if (testing::Test::HasFatalFailure()) return;
     EXPECT_EQ(talk_->GetJob(job_).value.state(), v1::DONE);
     ExpectTruth(*talk_, job_, truth_);
+  }
+  // A job of some of the frames comes and goes; the first one's pictures stay.
+  void DeleteAnother() {
+    const auto even = [](grpc::Status status, grpc::StatusCode expected) {
+      return status.error_code() == expected ? grpc::Status::OK : status;
+    };
+    std::string other;
+    Must([&] {
+      v1::SubmitRequest request = Request(Sha256Of(truth_.scene).Hex());
+      request.set_request_id("two");
+      v1::FrameSpan& span = *request.add_span();
+      span.set_first(2);
+      span.set_last(4);
+      span.set_step(2);
+      const auto said = talk_->Submit(request);
+      other = said.value.job_id();
+      return said.status;
+    });
+    if (testing::Test::HasFatalFailure()) return;
+    EXPECT_NE(other, job_);
+    // It may have ended by itself, or be gone by an answer that never came.
+    Must([&] {
+      const auto status = talk_->Command(other, v1::CommandRequest::CANCEL).status;
+      return even(status, grpc::StatusCode::FAILED_PRECONDITION);
+    });
+    if (testing::Test::HasFatalFailure()) return;
+    Must([&] {
+      const auto status = talk_->Command(other, v1::CommandRequest::DELETE).status;
+      return even(status, grpc::StatusCode::NOT_FOUND);
+    });
+    deleted_ = other;
   }
   void JoinAnew() {
     session_ = "s" + std::to_string(++sessions_);
@@ -310,6 +343,9 @@ class Sweep {
     const auto missing = talk_->Missing({blobs_.begin(), blobs_.end()});
     if (!missing.ok()) return;
     EXPECT_EQ(missing.value.digest_size(), 0) << "a blob that was answered is gone";
+    if (!deleted_.empty()) {
+      EXPECT_NE(talk_->GetJob(deleted_).code(), grpc::StatusCode::OK) << "a deleted job is back";
+    }
     if (job_.empty()) return;
     const auto frames = talk_->Frames(job_);
     if (!frames.ok()) {
@@ -328,7 +364,7 @@ class Sweep {
   Coordinator coordinator_;
   std::unique_ptr<Talk> talk_;
   int crashes_ = 0, sessions_ = 0;
-  std::string session_, job_;
+  std::string session_, job_, deleted_;
   uint64_t number_ = 0;
   std::vector<v1::Grant> held_;
   std::set<std::string> blobs_;

@@ -2,6 +2,7 @@
 // gRPC, in one process. Its planner is the test's; what workers render is text.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <thread>
 
 #include "fjord/v1/leases.pb.h"
@@ -135,6 +136,26 @@ TEST_F(ProtocolTest, F1_SubmitNamesWhatIsWrong) {
   const auto outside = talk_->Submit(request);
   EXPECT_EQ(outside.code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_NE(outside.status.error_message().find("frames 1-10"), std::string::npos);
+  request.set_last_frame(0);
+  request.set_first_frame(0);
+  const auto spans = [&](std::vector<std::array<uint32_t, 3>> all) {
+    request.clear_span();
+    for (const auto& [first, last, step] : all) {
+      v1::FrameSpan& span = *request.add_span();
+      span.set_first(first);
+      span.set_last(last);
+      span.set_step(step);
+    }
+    return talk_->Submit(request);
+  };
+  for (const auto& wrong : std::vector<std::vector<std::array<uint32_t, 3>>>{
+           {{0, 3, 1}}, {{3, 2, 1}}, {{1, 5, 1}, {5, 6, 1}}, {{5, 6, 1}, {1, 2, 1}}, {{1, 4, 2}}}) {
+    const auto refused = spans(wrong);
+    EXPECT_EQ(refused.code(), grpc::StatusCode::INVALID_ARGUMENT);
+    EXPECT_EQ(refused.status.error_message().substr(0, 5), "span:");
+  }
+  EXPECT_NE(spans({{1, 11, 2}}).status.error_message().find("frames 1-10"), std::string::npos);
+  request.clear_span();
   request.set_last_frame(10);
   request.set_protocol("9.1");
   EXPECT_EQ(talk_->Submit(request).code(), grpc::StatusCode::FAILED_PRECONDITION);
@@ -147,6 +168,62 @@ TEST_F(ProtocolTest, F1_SubmitNamesWhatIsWrong) {
   request.set_request_id("r2");
   request.set_scene_digest(talk_->PutBytes(scene.SerializeAsString()));
   EXPECT_EQ(talk_->Submit(request).code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST_F(ProtocolTest, F1_AJobHasTheFramesOfItsSpansAfterARestartToo) {
+  v1::SubmitRequest request;
+  request.set_protocol(kProtocol);
+  request.set_request_id("spans");
+  v1::Scene scene;
+  scene.set_name("\x1b[31m spans");
+  scene.mutable_output()->set_frames(40);
+  request.set_scene_digest(talk_->PutBytes(scene.SerializeAsString()));
+  v1::FrameSpan* span = request.add_span();
+  span->set_first(3);
+  span->set_last(3);
+  span = request.add_span();
+  span->set_first(20);
+  span->set_last(40);
+  span->set_step(10);
+  request.set_frame_limit_ms(2'500);
+  const auto submitted = talk_->Submit(request);
+  ASSERT_TRUE(submitted.ok()) << submitted.status.error_message();
+  for (int start = 0; start < 2; ++start) {
+    const v1::Job job = talk_->GetJob(submitted.value.job_id()).value;
+    EXPECT_EQ(job.frames().total(), 4u);
+    ASSERT_EQ(job.span_size(), 2);
+    EXPECT_EQ(job.span(1).step(), 10u);
+    EXPECT_EQ(job.frame_limit_ms(), 2'500u);
+    std::vector<uint32_t> numbers;
+    for (uint32_t from = 0;;) {
+      const auto page = talk_->Frames(job.id(), from, 3);
+      for (const v1::Frame& frame : page.value.frame()) numbers.push_back(frame.number());
+      if (page.value.next_frame() == 0) break;
+      from = page.value.next_frame();
+    }
+    EXPECT_EQ(numbers, (std::vector<uint32_t>{3, 20, 30, 40}));
+    Restart();
+  }
+  scene.set_name(std::string(201, 'n'));
+  request.set_request_id("long");
+  request.set_scene_digest(talk_->PutBytes(scene.SerializeAsString()));
+  EXPECT_EQ(talk_->Submit(request).status.error_message(),
+            "name: the scene's has 201 bytes; at most 200");
+}
+
+TEST_F(ProtocolTest, F2_ADeletedJobIsGoneForWatchersAndAfterARestart) {
+  const std::string job = talk_->SubmitFrames(1).value.job_id();
+  EXPECT_EQ(talk_->Command(job, v1::CommandRequest::DELETE).code(),
+            grpc::StatusCode::FAILED_PRECONDITION);
+  ASSERT_TRUE(talk_->Command(job, v1::CommandRequest::CANCEL).ok());
+  EXPECT_EQ(talk_->Command(job, v1::CommandRequest::DELETE).value.id(), job);
+  for (int start = 0; start < 2; ++start) {
+    EXPECT_EQ(talk_->GetJob(job).code(), grpc::StatusCode::NOT_FOUND);
+    EXPECT_EQ(talk_->WatchToTheEnd(job).code(), grpc::StatusCode::NOT_FOUND);
+    EXPECT_EQ(talk_->Command(job, v1::CommandRequest::DELETE).code(), grpc::StatusCode::NOT_FOUND);
+    Restart();
+  }
+  EXPECT_NE(talk_->SubmitFrames(1).value.job_id(), job);
 }
 
 TEST_F(ProtocolTest, F3_DuplicateConflictAndThirdWorker) {

@@ -40,11 +40,11 @@ JobRow SomeJob(JobId id) {
               "näme",
               "it's \"a\" project",
               Sha256Of("scene"),
-              3,
-              7,
+              *FrameSet::Parse("3-7,20-40x4"),
               -5,
               .25,
-              0};
+              0,
+              5'000};
   row.submitted_unix_ms = 1'700'000'000'123;
   return row;
 }
@@ -83,7 +83,8 @@ TEST(JournalTest, F1_RowsComeBackAsTheyWere) {
   EXPECT_EQ(loaded->jobs[0].spec.name, "näme");
   EXPECT_EQ(loaded->jobs[0].spec.project, "it's \"a\" project");
   EXPECT_EQ(loaded->jobs[0].spec.scene, Sha256Of("scene"));
-  EXPECT_EQ(loaded->jobs[0].spec.last, 7u);
+  EXPECT_EQ(loaded->jobs[0].spec.frames.ToString(), "3-7,20-40x4");
+  EXPECT_EQ(loaded->jobs[0].spec.frame_limit_ms, 5'000u);
   EXPECT_EQ(loaded->jobs[0].spec.priority, -5);
   EXPECT_EQ(loaded->jobs[0].spec.verify_share, .25);
   EXPECT_EQ(loaded->jobs[0].submitted_unix_ms, 1'700'000'000'123);
@@ -128,6 +129,26 @@ TEST(JournalTest, F8_DamageAndOtherVersionsAreNamed) {
   EXPECT_NE(damaged.error().message.find("move it aside"), std::string::npos) << "what to do";
 }
 
+TEST(JournalTest, F1_ADroppedJobIsGoneAndItsIdIsNeverGivenAgain) {
+  TempDir dir;
+  {
+    const auto journal = OpenIn(dir);
+    const std::vector<Record> records = {SomeJob(8), SomeJob(9), FrameRow{8, 3, Sha256Of("k")},
+                                         FrameRow{9, 3, Sha256Of("k")}};
+    ASSERT_TRUE(journal->Append(records).ok());
+    const std::vector<Record> drops = {DropJob{9}, DropJob{8}};
+    ASSERT_TRUE(journal->Append({&drops[0], 1}).ok());
+    EXPECT_EQ(journal->Load()->jobs.size(), 1u);
+    ASSERT_TRUE(journal->Append({&drops[1], 1}).ok());
+  }
+  const auto journal = OpenIn(dir);
+  const Result<Snapshot> snapshot = journal->Load();
+  ASSERT_TRUE(snapshot.ok()) << snapshot.error().ToString();
+  EXPECT_TRUE(snapshot->jobs.empty());
+  EXPECT_TRUE(snapshot->frames.empty());
+  EXPECT_EQ(snapshot->last_job, 9u);
+}
+
 // As the first version left it: the columns that came later get their defaults.
 TEST(JournalTest, F4_AJournalOfVersion1IsTakenOver) {
   TempDir dir;
@@ -139,8 +160,10 @@ TEST(JournalTest, F4_AJournalOfVersion1IsTakenOver) {
   }
   {
     soci::session sql(soci::sqlite3, "dbname=\"" + dir.path() + "/" + kJournalFile + "\"");
-    for (const char* statement : {"ALTER TABLE result DROP COLUMN bytes",
-                                  "UPDATE meta SET value = '1' WHERE name = 'schema'"}) {
+    for (const char* statement :
+         {"ALTER TABLE result DROP COLUMN bytes", "ALTER TABLE job DROP COLUMN frames",
+          "ALTER TABLE job DROP COLUMN frame_limit_ms",
+          "UPDATE meta SET value = '1' WHERE name = 'schema'"}) {
       sql << statement;
     }
   }
@@ -150,6 +173,8 @@ TEST(JournalTest, F4_AJournalOfVersion1IsTakenOver) {
     ASSERT_TRUE(snapshot.ok()) << snapshot.error().ToString();
     ASSERT_EQ(snapshot->jobs.size(), 1u);
     EXPECT_EQ(snapshot->jobs[0].spec.name, "näme");
+    EXPECT_EQ(snapshot->jobs[0].spec.frames.ToString(), "3-40") << "first and last are all it had";
+    EXPECT_EQ(snapshot->jobs[0].spec.frame_limit_ms, 0u);
     ASSERT_EQ(snapshot->results.size(), 1u);
     EXPECT_EQ(snapshot->results[0].render_ms, 17u);
     EXPECT_EQ(snapshot->results[0].bytes, 0u);

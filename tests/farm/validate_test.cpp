@@ -42,6 +42,12 @@ TEST(ValidateTest, F8_Submit) {
   EXPECT_EQ(field([](auto& r) { r.set_scene_digest(std::string(64, 'A')); }), "scene_digest");
   EXPECT_EQ(field([](auto& r) { r.set_first_frame(1'000'001); }), "first_frame");
   EXPECT_EQ(field([](auto& r) { r.set_first_frame(5), r.set_last_frame(4); }), "last_frame");
+  EXPECT_EQ(field([](auto& r) { r.set_first_frame(5), r.add_span(); }), "span");
+  EXPECT_EQ(field([](auto& r) {
+              for (int i = 0; i < 10'001; ++i) r.add_span();
+            }),
+            "span");
+  EXPECT_EQ(field([](auto& r) { r.set_frame_limit_ms(604'800'001); }), "frame_limit_ms");
   EXPECT_EQ(field([](auto& r) { r.set_priority(1001); }), "priority");
   EXPECT_EQ(field([](auto& r) { r.set_verify_share(1.5); }), "verify_share");
   EXPECT_EQ(field([](auto& r) { r.set_verify_share(std::numeric_limits<double>::quiet_NaN()); }),

@@ -83,6 +83,23 @@ TEST(HeldTest, F5_H1_StopsBeforeTheDeadlineCountedFromTheSend) {
   EXPECT_TRUE(held.empty());
 }
 
+TEST(HeldTest, F5_AFrameOverItsTimeIsStoppedAndStaysHeldToBeReported) {
+  HeldLeases held(milliseconds(50));
+  v1::AcquireResponse response = GrantOf(1);
+  response.mutable_grant(0)->set_limit_ms(300);
+  const Time sent{};
+  held.Add(response, sent);
+  const auto lease = held.Next();
+  EXPECT_EQ(held.CancelOverdue(sent), sent + milliseconds(950)) << "not before it is rendered";
+  held.Begin(lease, sent + milliseconds(100));
+  EXPECT_EQ(held.CancelOverdue(sent + milliseconds(399)), sent + milliseconds(400));
+  EXPECT_FALSE(lease->cancel);
+  held.CancelOverdue(sent + milliseconds(400));
+  EXPECT_TRUE(lease->cancel);
+  EXPECT_TRUE(lease->over);
+  EXPECT_EQ(held.All().size(), 1u);
+}
+
 TEST(HeldTest, F3_H1_AMadePictureIsDeliveredWhateverTheClockSays) {
   HeldLeases held(milliseconds(50));
   held.Add(GrantOf(1), Time{});
@@ -116,6 +133,8 @@ struct Script {
   std::deque<StatusCode> acquire_faults, complete_faults, put_faults, join_faults;
   bool forget_session = false;
   bool refuse_renewals = false;
+  uint32_t limit_ms = 0;
+  std::string error;  // of the last failure
 
   grpc::Status Fault(std::deque<StatusCode>& faults) {
     if (faults.empty()) return grpc::Status::OK;
@@ -160,6 +179,7 @@ class ScriptLeases : public LeaseClient {
     }
     v1::AcquireResponse response = GrantOf(script_.next++);
     response.mutable_grant(0)->set_term_ms(kScriptTermMs);
+    response.mutable_grant(0)->set_limit_ms(script_.limit_ms);
     return {grpc::Status::OK, response};
   }
   Reply<v1::RenewResponse> Renew(const v1::RenewRequest& request) override {
@@ -192,6 +212,7 @@ class ScriptLeases : public LeaseClient {
   }
   Reply<v1::FailResponse> Fail(const v1::FailRequest& request) override {
     const std::lock_guard lock(script_.mutex);
+    script_.error = request.error();
     script_.failed.insert(request.attempt().sequence());
     script_.changed.notify_all();
     return {};
@@ -285,6 +306,15 @@ TEST_F(WorkerTest, F5_AFailedFrameIsToldAndTheRestGoesOn) {
   Start(12, 14);
   EXPECT_TRUE(
       script_.WaitUntil([&] { return script_.done.size() == 2 && script_.failed.contains(13); }));
+}
+
+TEST_F(WorkerTest, F5_AFrameOverItsLimitHasFailedAndTheRestGoesOn) {
+  script_.limit_ms = 30;
+  Start(98, 101);
+  EXPECT_TRUE(
+      script_.WaitUntil([&] { return script_.done.size() == 3 && script_.failed.contains(99); }));
+  EXPECT_NE(script_.error.find("took longer than its 0.03 s (--frame-limit)"), std::string::npos)
+      << script_.error;
 }
 
 TEST_F(WorkerTest, F4_ReannouncesWhatItHolds) {
