@@ -343,6 +343,38 @@ TEST(LoadTest, JsonErrorsAreAllReportedWithTheirPlaces) {
   EXPECT_THAT(ErrorsOf("{ \"objects\": [ "), StartsWith("s.scene:1:16: error: JSON: "));
 }
 
+TEST(LoadTest, S23_BallsAreEvenWhereNobodySaysOtherwise) {
+  const auto base = [](const std::string& words) {
+    const LoadResult result = Load("objects { shape { primitive { " + words + " } } }");
+    EXPECT_TRUE(result.ok()) << ErrorsOf(result);
+    return result.loaded.scene.objects(0).shape().primitive().base();
+  };
+  EXPECT_EQ(base("kind: SPHERE"), v1::Primitive::EVEN);
+  EXPECT_EQ(base("kind: ELLIPSOID"), v1::Primitive::EVEN);
+  EXPECT_EQ(base("kind: SPHERE base: LATITUDE"), v1::Primitive::LATITUDE);
+  EXPECT_EQ(base("kind: SPHERE segments: 24"), v1::Primitive::LATITUDE);
+  EXPECT_EQ(base("kind: ELLIPSOID rings: 12"), v1::Primitive::LATITUDE);
+  EXPECT_EQ(base("kind: SPHERE rings: 12 base: EVEN"), v1::Primitive::EVEN);
+  EXPECT_EQ(
+      ErrorsOf("objects { shape { primitive { kind: TORUS base: EVEN } } }"),
+      "s.scene:1:43: error: objects[object-1].shape.primitive.base: TORUS has no base; SPHERE "
+      "and ELLIPSOID have\n");
+}
+
+TEST(LoadTest, WhatIsForShapesIsRefusedOfPictures) {
+  for (const char* words : {"spacing: 1", "up: Y", "outline: true", "curve: 1"}) {
+    const std::string field(words, std::string(words).find(':'));
+    EXPECT_THAT(ErrorsOf("objects { shape { heights { file { path: \"a.png\" " +
+                         std::string(words) + " } } } }"),
+                HasSubstr("heights.file." + field + ": a picture of heights has no " + field));
+  }
+  EXPECT_THAT(
+      ErrorsOf("objects { name: \"a\" shape { file { path: \"a.obj\" spacing: 1 } } }\n"
+               "track { path: \"objects[a].shape.file.spacing\" key { frame: 1 value: 2 } }",
+               {}, {{"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"}}),
+      HasSubstr("it decides which points there are"));
+}
+
 TEST(LoadTest, GeoJsonIsNamed) {
   EXPECT_EQ(
       ErrorsOf("{ \"features\": [ { \"type\": \"Feature\" } ],\n"
