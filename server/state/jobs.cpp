@@ -284,7 +284,7 @@ void Machine::SceneUnusable(JobId id, std::string error, Now now) {
   Finish(now);
 }
 
-// As a whole, for a reason that is no frame's.
+// For a reason that is no frame's.
 void Machine::FailJob(Job& job, std::string error, Now now) {
   job.row.error = std::move(error);
   for (uint32_t index = 0; index < job.frames.size(); ++index) {

@@ -163,12 +163,6 @@ TEST_F(FramesCliTest, C36_AFrameThatNeverEndsMeetsItsLimit) {
   EXPECT_THAT(run.err, HasSubstr("frame 1 took longer than its 0.5 s (--frame-limit)"));
 }
 
-TEST_F(FramesCliTest, AJobIsOneRangeAndSubmitSaysSo) {
-  const ProgramRun run = RunFjord({"submit", scene_, "--frames", "1-3,5"});
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("--frames 1-3,5: a job is one range of frames"));
-}
-
 // Their pictures have their own names, so that neither is taken for the other's.
 TEST_F(FramesCliTest, ScenesNamedInAnyScriptKeepTheirNames) {
   for (const char* name : {"\u5c71", "\u6d77", "my shot", "my_shot", "caf\u00e9"}) {
