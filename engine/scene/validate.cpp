@@ -129,11 +129,13 @@ void CheckObject(const v1::Scene& scene, int index, const SceneShapes& shapes,
 
 void CheckScene(v1::Scene* scene, const SceneShapes& shapes, SceneErrors* errors) {
   if (!IsPictureStem(scene->name())) {
-    errors->Add(Route().Then("name"),
-                "\"" + Printable(scene->name()) + "\" cannot be a scene's name, with which its " +
-                    "pictures' begin: characters of any script, no /, no control characters, " +
-                    "not beginning with a dot, at most " + std::to_string(limits::kNameBytes) +
-                    " bytes");
+    std::string what = "\"";
+    what += Printable(scene->name());
+    what +=
+        "\" cannot be a scene's name, with which its pictures' begin: characters of any script, "
+        "no /, no control characters, not beginning with a dot, at most " +
+        std::to_string(limits::kNameBytes) + " bytes";
+    errors->Add(Route().Then("name"), what);
   }
   if (scene->objects_size() == 0) {
     errors->Add({}, "the scene has no objects; add objects { shape { ... } }");

@@ -67,7 +67,9 @@ TEST(CodecTest, AlphaIsWrittenAndReadAsItIs) {
     if (exr) picture.layers.push_back({"depth", std::vector<float>(37 * 23, 2.5f)});
     const Result<std::string> bytes = EncodePicture(picture, {});
     ASSERT_TRUE(bytes.ok()) << bytes.error().message;
-    if (!exr) EXPECT_EQ((*bytes)[25], 6) << "colour type of truecolour with alpha";
+    if (!exr) {
+      EXPECT_EQ((*bytes)[25], 6) << "colour type of truecolour with alpha";
+    }
     const Result<Picture> back = DecodePicture(*bytes, "test");
     ASSERT_TRUE(back.ok()) << back.error().message;
     EXPECT_TRUE(back->alpha);
