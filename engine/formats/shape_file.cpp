@@ -73,6 +73,18 @@ Guess GuessText(std::string_view bytes) {
   return guess;
 }
 
+// Some face names two vertices. Its sizes and indices are sound.
+bool HasEdge(const Mesh& mesh) {
+  size_t corner = 0;
+  for (const uint32_t size : mesh.face_size) {
+    for (size_t k = 1; k < size; ++k) {
+      if (mesh.face_vertex[corner + k] != mesh.face_vertex[corner]) return true;
+    }
+    corner += size;
+  }
+  return false;
+}
+
 // The mesh of a shape obeys Mesh's invariants, its curves are curves, its numbers can be read
 // again.
 Result<> CheckWritable(const ShapeFile& shape, ShapeFormat format) {
@@ -102,6 +114,10 @@ Result<> CheckWritable(const ShapeFile& shape, ShapeFormat format) {
   if (corners != mesh.face_vertex.size()) return Invalid("the sizes of the faces do not add up");
   for (const uint32_t v : mesh.face_vertex) {
     if (v >= points) return Invalid("a face names vertex " + std::to_string(uint64_t{v} + 1));
+  }
+  if (format == ShapeFormat::kSvg && shape.curves.empty() && !HasEdge(mesh)) {
+    return Invalid(
+        "no face of the mesh has an edge that .svg could show: each names one vertex only");
   }
   if (!mesh.colors.empty() && mesh.colors.size() != points) {
     return Invalid("there must be a colour for every vertex or for none");

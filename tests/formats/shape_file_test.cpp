@@ -62,6 +62,10 @@ TEST(ShapeFileTest, OnlyWhatCanBeReadAgainIsWritten) {
   shape = good;
   shape.mesh.colors.resize(2);
   refuse(shape, ShapeFormat::kObj, "colour for every vertex");
+  shape = good;
+  shape.mesh.face_vertex.assign(3, 1);
+  refuse(shape, ShapeFormat::kSvg, "no face of the mesh has an edge");
+  EXPECT_TRUE(WriteShape(shape, ShapeFormat::kObj, {}));
   shape = {};
   shape.curves.push_back({{{0, 0, 0}, {1, 0, 0}}, false});
   refuse(shape, ShapeFormat::kStd, "curve 1 is open");
