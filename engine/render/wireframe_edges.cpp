@@ -99,7 +99,7 @@ class EdgeCollector {
 
  private:
   End MakeEnd(const StreamVertex& vertex) const {
-    constexpr double kFar = kFixedGuard / 2;
+    constexpr double kFar = .5 * kFixedGuard;
     End end{vertex.id, ToClip(to_, vertex.position)};
     if (!(end.clip.z > to_.near)) return end;
     const double scale = to_.orthographic ? 1 : 1 / end.clip.z;
