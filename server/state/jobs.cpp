@@ -96,7 +96,7 @@ Answer<JobId> Machine::Command(JobId id, JobCommand command, int32_t priority, N
       job.row.spec.priority = priority;
       break;
     case JobCommand::kDelete:
-      Forget(job);
+      Forget(job, now);
       Finish(now);
       return id;
   }
@@ -118,7 +118,8 @@ void Machine::SettleKeysOf(const Job& job, Now now) {
 }
 
 // Its keys stay, with what is known of them: the next job that wants them is served from the store.
-void Machine::Forget(Job& job) {
+// What it alone asked of them goes.
+void Machine::Forget(Job& job, Now now) {
   const JobId id = job.row.id;
   std::set<Key*> keys;
   for (const Frame& frame : job.frames) {
@@ -126,8 +127,12 @@ void Machine::Forget(Job& job) {
   }
   for (Key* key : keys) {
     std::erase_if(key->wanters, [id](const FrameRef ref) { return ref.job == id; });
-    const size_t sensible = Wanted(*key) ? key->slots() : 0;
-    while (key->live.size() > sensible) EndAttempt(key->live.back());
+    key->required = 1;
+    for (const FrameRef ref : key->wanters) {
+      const Job& other = jobs_.at(ref.job);
+      if (!other.frames[ref.index].cached) RequireProof(*key, other);
+    }
+    Settle(*key, now);
   }
   if (const auto followers = followers_.find(id); followers != followers_.end()) {
     for (const JobId follower : followers->second) {

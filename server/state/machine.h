@@ -183,7 +183,7 @@ class Machine {
   std::optional<Refusal> RefuseCommand(const Job& job, JobCommand command) const;
   const Job* FailedBefore(const Job& job) const;
   void FailJob(Job& job, std::string error, Now now);
-  void Forget(Job& job);
+  void Forget(Job& job, Now now);
   void AddWanter(Key& key, FrameRef ref);
   void PlanAhead(Job& job);
   void Retry(Job& job, Now now);

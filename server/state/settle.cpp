@@ -75,6 +75,14 @@ Attempt Machine::EndAttempt(AttemptId id) {
 
 void Machine::Settle(Key& key, Now) {
   key.verdict = Judge(key.evidence, key.required);
+  if (!key.done()) {
+    // Frames that were served from the store are made for their own jobs now, as a restart sees it.
+    for (const FrameRef ref : key.wanters) {
+      const Job& job = jobs_.at(ref.job);
+      if (job.frames[ref.index].cached) RequireProof(key, job);
+    }
+    key.verdict = Judge(key.evidence, key.required);
+  }
   const size_t sensible = Wanted(key) ? key.slots() : 0;
   while (key.live.size() > sensible) EndAttempt(key.live.back());
   for (const FrameRef ref : key.wanters) SettleFrame(key, ref);

@@ -157,8 +157,8 @@ TEST_F(FramesCliTest, CheckTakesTheChangesThatRenderTakes) {
 
 TEST_F(FramesCliTest, C36_AFrameThatNeverEndsMeetsItsLimit) {
   const std::string endless = std::string(FJORD_SOURCE_DIR) + "/tests/cases/36.scene";
-  const ProgramRun run = RunFjord(
-      {"render", endless, "-o", out_, "--frame-limit", "0.5", "--budget", "unlimited"});
+  const ProgramRun run =
+      RunFjord({"render", endless, "-o", out_, "--frame-limit", "0.5", "--budget", "unlimited"});
   EXPECT_EQ(run.code, 1);
   EXPECT_THAT(run.err, HasSubstr("frame 1 took longer than its 0.5 s (--frame-limit)"));
 }

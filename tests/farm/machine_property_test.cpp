@@ -177,7 +177,7 @@ class Story {
     if (answered_.empty()) return;
     const Digest key = *std::next(answered_.begin(), Pick<size_t>(0, answered_.size()));
     const Key* known = farm_.machine().FindKey(key);
-    if (known->evidence.empty()) return;
+    if (known == nullptr || known->evidence.empty()) return;  // with a liar
     const Digest blob = known->evidence.front().blob;
     farm_.LoseBlob(blob);
     RC_ASSERT(std::none_of(known->evidence.begin(), known->evidence.end(),
