@@ -109,7 +109,9 @@ void AddPose(const v1::Scene& scene, const v1::Fractal& fractal, const Geometry&
   }
 }
 
-// Frames at which the object is looked at: its keys and those of its tracks, or an even choice.
+// Frames at which the object is looked at: its keys and those of its tracks, or an even choice; and
+// where tracks change what it is, frames between these, for a fractal between two may reach further
+// than both.
 std::vector<double> PoseFrames(const v1::Object& object, const TrackSet& own, uint32_t frames) {
   std::vector<double> poses = own.KeyFrames();
   for (const v1::Key& key : object.key()) poses.push_back(key.frame());
@@ -117,6 +119,14 @@ std::vector<double> PoseFrames(const v1::Object& object, const TrackSet& own, ui
   if (poses.empty()) poses.push_back(1);
   std::sort(poses.begin(), poses.end());
   poses.erase(std::unique(poses.begin(), poses.end()), poses.end());
+  while (own.size() > 0 && poses.size() > 1 && poses.size() < kMostPoses) {
+    size_t widest = 1;
+    const auto gap = [&](size_t i) { return poses[i] - poses[i - 1]; };
+    for (size_t i = 2; i < poses.size(); ++i) widest = gap(i) > gap(widest) ? i : widest;
+    if (gap(widest) <= 1) break;
+    const double middle = poses[widest - 1] + .5 * gap(widest);
+    poses.insert(poses.begin() + static_cast<std::ptrdiff_t>(widest), middle);
+  }
   if (poses.size() <= kMostPoses) return poses;
   std::vector<double> chosen;
   for (size_t i = 0; i < kMostPoses; ++i) {

@@ -145,7 +145,7 @@ RC_GTEST_PROP(DefaultViewProperty, HasAllOfTheFractalInView, ()) {
   const Extent fractal = ExtentOfShot(text, Of::kFractal);
   RC_LOG() << fractal.left << ".." << fractal.right << ' ' << fractal.top << ".." << fractal.bottom;
   RC_ASSERT(fractal.InView());
-  RC_ASSERT(fractal.Fills() > .4);
+  RC_ASSERT(fractal.Fills() > .3);
 }
 
 // An outline between keys that bends far out at its middle key.
