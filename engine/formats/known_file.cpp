@@ -144,8 +144,21 @@ std::optional<Known> Recognise(std::string_view bytes) {
   return OfLines(head);
 }
 
-constexpr std::string_view kHeights =
-    "as terrain a scene names it by shape { heights { file { path: \"...\" } } }";
+// What to do with files whose use is the same wherever they are given; `otherwise` with others.
+std::string AdviceFor(Use use, const char* otherwise) {
+  const std::string heights =
+      "as terrain a scene names it by shape { heights { file { path: \"...\" } } }";
+  switch (use) {
+    case Use::kTerrain:
+      return "; " + heights;
+    case Use::kPicture:
+      return "; save it as .png of 16 bits or .exr, and " + heights;
+    case Use::kText:
+      return "; save it as UTF-8";
+    default:
+      return std::string("; ") + otherwise;
+  }
+}
 
 }  // namespace
 
@@ -169,14 +182,9 @@ std::string WhyNotScene(std::string_view bytes, const std::string& name) {
       return what + "; save it as .obj or .ply, and `fjord import` makes a first scene of that";
     case Use::kMap:
       return what + "; save its outlines as .svg or .obj, and `fjord import` makes a first scene";
-    case Use::kTerrain:
-      return what + "; " + std::string(kHeights);
-    case Use::kPicture:
-      return what + "; save it as .png of 16 bits or .exr, and " + std::string(kHeights);
-    case Use::kText:
-      return what + "; save it as UTF-8";
     default:
-      return what + "; a scene has fields such as objects and camera (docs/scene.md)";
+      return what +
+             AdviceFor(known->use, "a scene has fields such as objects and camera (docs/scene.md)");
   }
 }
 
@@ -189,14 +197,8 @@ std::string WhyNotShape(std::string_view bytes) {
       return what + "; `fjord fractalize` makes shapes of a scene's objects";
     case Use::kMap:
       return what + "; save its outlines as .svg or .obj";
-    case Use::kTerrain:
-      return what + "; " + std::string(kHeights);
-    case Use::kPicture:
-      return what + "; save it as .png of 16 bits or .exr, and " + std::string(kHeights);
-    case Use::kText:
-      return what + "; save it as UTF-8";
     default:
-      return what + "; save it as .obj, .ply, .std or, for curves, .svg";
+      return what + AdviceFor(known->use, "save it as .obj, .ply, .std or, for curves, .svg");
   }
 }
 
